@@ -2,8 +2,8 @@
 //!
 //! It compiles `mediant-web` to WebAssembly, has the program `wasm-bindgen` write its JavaScript, and puts
 //! two folders together, in `target/web`: `package`, which `npm publish` and `npm install` take, and `page`,
-//! which any web server takes. What the package needs besides Rust is had from Cargo; the page's bundler,
-//! esbuild, is had from npm.
+//! which any web server takes. Cargo has the tools of the package besides Rust; npm has the page's bundler,
+//! esbuild.
 
 mod bundle;
 mod page;
@@ -30,7 +30,7 @@ use parts::{File, write_folder};
 
 /// The crate.
 const CRATE: &str = "mediant-web";
-/// What the module may weigh when it was compressed as web servers do, in bytes.
+/// The most bytes of the module, compressed as web servers do.
 const LARGEST: usize = 700_000;
 
 /// The options of `cargo xtask web`.
@@ -82,7 +82,7 @@ pub fn run(options: Options) -> Result<(), Error> {
 
 /// Runs `wasm-bindgen` on the compiled module.
 fn bind(program: &Path, module: &Path, out: &Path) -> Result<(), Error> {
-    // What an older version wrote there would be taken for a part of the package.
+    // Files of an older version would be taken for a part of the package.
     if out.exists() {
         fs::remove_dir_all(out).map_err(Error::at(out))?;
     }

@@ -7,7 +7,7 @@ use mediant_formats::{MapFile, ReadError, Scenario, Tiles};
 
 use crate::{draw::theme::Theme, failure::Failure};
 
-/// What an argument for a file begins with when it names a bundled map.
+/// The prefix of a file argument that names a bundled map.
 const PREFIX: &str = "builtin:";
 
 /// A bundled map, with its scenario and the query of its demo.
@@ -20,7 +20,7 @@ pub(crate) struct Builtin {
     /// The start of the demo's query: a vertex that is free at corners and at centers. So is the goal.
     pub(crate) start: Vertex,
     pub(crate) goal: Vertex,
-    /// What the demo calls its path.
+    /// The caption of the demo.
     pub(crate) caption: &'static str,
 }
 

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
         Command::Engines => commands::engines::list(&mut screen).map(|()| Ending::Answered),
         Command::Moves(args) => commands::moves::moves(&args, &mut screen).map(|()| Ending::Answered),
     };
-    // What was printed before a failure is shown before the failure.
+    // Output printed before a failure is shown before it.
     let flushed = screen.flush();
     finish(ending.and_then(|ending| flushed.map(|()| ending).map_err(Into::into)))
 }

@@ -20,7 +20,7 @@ use crate::{
 
 /// A map with the name that reports give it.
 #[derive(Clone)]
-pub(crate) struct Map {
+pub(crate) struct NamedMap {
     /// The file's name, without its folders.
     pub(crate) name: String,
     /// The map that is searched: the agent's.
@@ -38,7 +38,7 @@ pub(crate) struct Map {
     tiles: Option<MapFile>,
 }
 
-impl Map {
+impl NamedMap {
     /// Reads a map file, or parses the bundled map that `builtin:NAME` names.
     pub(crate) fn load(args: &MapArgs) -> Result<Self, Failure> {
         Ok(Self { tiles: None, ..Self::load_with_tiles(args)? })

@@ -108,7 +108,7 @@ impl<C: Coordinate> From<[C; 2]> for Vertex {
     }
 }
 
-/// What a loop over `&path` yields goes into every call, too.
+/// The items of a loop over `&path` go into every call, too.
 impl From<&Self> for Vertex {
     #[inline]
     fn from(vertex: &Self) -> Self {

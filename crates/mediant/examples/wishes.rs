@@ -1,4 +1,4 @@
-//! What can be asked beyond a path: the nearest place, a tolerance, limits.
+//! Wishes beyond a path: the nearest place, a tolerance, limits.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use mediant::{Engine, K, Limits, Map, Motion, Query};

@@ -29,8 +29,8 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for a radius that is negative or not finite, [`Error::K`] or [`Error::Motion`] for a
-    /// number that is no k.
+    /// [`Error::Size`] for a radius that is negative or not finite; [`Error::K`] or
+    /// [`SetupError::Motion`](crate::SetupError::Motion) for a number that is no k.
     pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Self, Error> {
         let motion = motion.into();
         motion.check_k()?;
@@ -42,15 +42,15 @@ impl Map {
     /// obstacles keep the disc's distance from them.
     ///
     /// # Errors
-    /// Those of [`for_disc`](Self::for_disc).
+    /// As for [`for_disc`](Self::for_disc).
     pub fn disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Disc, Error> {
         let motion = motion.into();
         Ok(Disc { obstacles: self.clone(), map: self.for_disc(radius, motion)?, radius, motion })
     }
 
     /// The map of an agent that occupies n × n cells. Its place is its top left cell: a cell is free if all
-    /// n × n cells from it on, to the right and down, are. What the moving square keeps free is said at
-    /// [`Grid::for_square`](mediant_grid::Grid::for_square).
+    /// n × n cells from it on, to the right and down, are.
+    /// [`Grid::for_square`](mediant_grid::Grid::for_square) states the guarantees for the moving square.
     ///
     /// # Errors
     /// [`Error::Size`] for n = 0.
@@ -94,7 +94,7 @@ impl Disc {
         &self.map
     }
 
-    /// Which cells are blocked by obstacles.
+    /// The map of the obstacles.
     #[must_use]
     pub const fn obstacles(&self) -> &Map {
         &self.obstacles
@@ -110,7 +110,7 @@ impl Disc {
     /// the radius, not the map.
     ///
     /// # Errors
-    /// Those of [`Map::edit`].
+    /// As for [`Map::edit`].
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         let obstacles = self.obstacles.edit(at, blocked)?;
         let map = match self.around(&obstacles, at)? {

@@ -1,4 +1,4 @@
-//! What each engine can do.
+//! Capabilities of the engines: placements, k, guarantee, distances, saved index.
 
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, SegmentGraph};
@@ -8,7 +8,7 @@ use mediant_subgoal::SubgoalGraph;
 
 use crate::{engine::Engine, option::Variant, setup_error::SetupError};
 
-/// What an engine can do, whatever its options.
+/// The capabilities of an engine, whatever its options.
 ///
 /// An engine works under every rule of motion of the placements that it takes, with one exception: subgoal
 /// graphs and hierarchies at centers ([`Setup::check`](crate::Setup::check)).

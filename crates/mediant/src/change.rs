@@ -56,7 +56,7 @@ impl Change {
     /// This change with other cells in a rectangle: see [`Map::edit`](crate::Map::edit).
     ///
     /// # Errors
-    /// Those of [`Map::edit`](crate::Map::edit).
+    /// As for [`Map::edit`](crate::Map::edit).
     pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         self.before.map().check_edit(at)?;
         self.change = self.change.edit(at, blocked);
@@ -67,7 +67,7 @@ impl Change {
     /// This change with other scattered cells: see [`Map::edit_cells`](crate::Map::edit_cells).
     ///
     /// # Errors
-    /// Those of [`Map::edit_cells`](crate::Map::edit_cells).
+    /// As for [`Map::edit_cells`](crate::Map::edit_cells).
     pub fn edit_cells<C: Into<Vertex>>(
         mut self,
         cells: impl IntoIterator<Item = (C, bool)>,
@@ -104,11 +104,11 @@ impl Change {
 }
 
 impl Space {
-    /// This space with other cells in a rectangle: see [`Map::edit`](crate::Map::edit). This space stays as it
-    /// is; a change takes more edits, and repairs indexes.
+    /// This space with other cells in a rectangle: see [`Map::edit`](crate::Map::edit). This space stays as
+    /// it is; a change takes more edits, and repairs indexes.
     ///
     /// # Errors
-    /// Those of [`Map::edit`](crate::Map::edit).
+    /// As for [`Map::edit`](crate::Map::edit).
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Change, Error> {
         Change::new(self).edit(at, blocked)
     }
@@ -116,7 +116,7 @@ impl Space {
     /// This space with other scattered cells: see [`Map::edit_cells`](crate::Map::edit_cells).
     ///
     /// # Errors
-    /// Those of [`Map::edit_cells`](crate::Map::edit_cells).
+    /// As for [`Map::edit_cells`](crate::Map::edit_cells).
     pub fn edit_cells<C: Into<Vertex>>(
         &self,
         cells: impl IntoIterator<Item = (C, bool)>,

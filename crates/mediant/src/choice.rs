@@ -1,4 +1,4 @@
-//! Which engine we would take, and a path by it at once.
+//! Recommends an engine, with the reason; and finds a path by it at once.
 
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_moves::K;
@@ -9,12 +9,12 @@ use crate::{
     setup::Setup, space::Space,
 };
 
-/// The engine that we would take, and why.
+/// A recommended engine, with the reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
     /// The engine.
     pub engine: Engine,
-    /// Why, in a sentence.
+    /// The reason, in a sentence.
     pub why: &'static str,
 }
 
@@ -115,7 +115,7 @@ impl Choice {
 }
 
 impl Space {
-    /// The engine that we would take for many paths, and why. It depends on the motion and on the size of
+    /// The engine recommended for many paths, with the reason. It depends on the motion and on the size of
     /// the map alone. Whether subgoals pay on the map is found out when they are prepared; where they do not,
     /// nothing of them is kept, and another engine searches:
     /// [`Index::searched_by`](crate::Index::searched_by).

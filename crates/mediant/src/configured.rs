@@ -26,8 +26,8 @@ use crate::{
 /// use std::num::NonZeroU32;
 /// use mediant::{ConfiguredEngine, Engine, JumpOptions};
 ///
-/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default()
-/// }); assert_eq!(engine.kind(), Engine::Jps);
+/// let options = JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() };
+/// assert_eq!(ConfiguredEngine::Jps(options).kind(), Engine::Jps);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each variant is documented as an `Engine`")]
@@ -401,7 +401,7 @@ impl ConfiguredEngine {
         }
     }
 
-    /// What CHPA* does where its plan fails; `None` for other engines.
+    /// CHPA*'s fallback where its plan fails; `None` for other engines.
     pub(crate) fn fallback_policy(self) -> Option<FallbackPolicy> {
         let Self::Chpa(own) = self else { return None };
         Some(match own.detour {

@@ -70,7 +70,7 @@
 //!
 //! # Many threads
 //!
-//! What is prepared is shared; [`Planners`](crate::Planners) lends each query a planner.
+//! Threads share the index; [`Planners`](crate::Planners) lends each query a planner.
 //!
 //! ```
 //! use std::thread;
@@ -351,8 +351,8 @@
 //!
 //! # Save an index, and load it
 //!
-//! What took long to prepare is kept in a file. The file knows its map, its rules and its k: with another one
-//! it is refused.
+//! An index that took long to prepare is saved in a file. The file knows its map, its rules and its k: with
+//! another one it is refused.
 //!
 //! ```
 //! use mediant::{Engine, ErrorCode, K, Map, Motion};

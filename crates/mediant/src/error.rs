@@ -144,9 +144,9 @@ pub enum Error {
         "needs hub labels of at most {most}, found {found} in the index; allow more memory, or prepare it again"
     )]
     Memory {
-        /// What the setup allows.
+        /// The most memory that the setup allows.
         most: Memory,
-        /// What the labels take.
+        /// The memory of the labels.
         found: Memory,
     },
     /// Memory that there is not.
@@ -155,7 +155,7 @@ pub enum Error {
         .bytes.div_ceil(1_000_000)
     )]
     OutOfMemory {
-        /// What needs it.
+        /// `the planner` or `the index`, which needs it.
         what: &'static str,
         /// How much it needs, in bytes.
         bytes: u64,
@@ -171,7 +171,7 @@ pub enum Error {
     InFile {
         /// The file.
         path: PathBuf,
-        /// What is wrong.
+        /// The error of the index.
         source: Box<Error>,
     },
     /// A file that cannot be written.

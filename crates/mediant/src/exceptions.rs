@@ -107,8 +107,8 @@ impl Planner {
     /// ([`ExceptedAnswer::searched_by`]).
     ///
     /// # Errors
-    /// Those of [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`]
-    /// if the request's limits stop what is prepared.
+    /// As for [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if
+    /// the request's limits stop what is prepared.
     pub fn find_except(
         &mut self,
         request: impl Into<Request>,

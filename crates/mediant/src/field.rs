@@ -55,17 +55,17 @@ impl Space {
     /// The distance of every vertex to the nearest source.
     ///
     /// # Errors
-    /// Those of [`Fields::field`].
+    /// As for [`Fields::field`].
     pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
         self.fields()?.field(sources)
     }
 
     /// The distances of those vertices whose distance to the nearest source is at most `limit` cells: what
-    /// an agent can reach, if it goes no further. What is exactly so far is within it: all limits leave room
-    /// for the rounding of lengths, one part in 2³¹.
+    /// an agent can reach, if it goes no further. A vertex at exactly that distance is within it: all limits
+    /// leave room for the rounding of lengths, one part in 2³¹.
     ///
     /// # Errors
-    /// Those of [`Fields::field_within`].
+    /// As for [`Fields::field_within`].
     pub fn field_within<V: Into<Vertex>>(
         &self,
         sources: impl IntoIterator<Item = V>,
@@ -74,7 +74,7 @@ impl Space {
         self.fields()?.field_within(sources, limit)
     }
 
-    /// What makes fields in this space, one after another.
+    /// A maker of fields in this space, which reuses its scratch memory.
     ///
     /// # Errors
     /// None that a space which exists can have.
@@ -93,8 +93,8 @@ impl Space {
 
     fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
         let inner = match (self.placed(), self.motion().k.finite()) {
-            (Placed::Centers(layers), Some(k)) => Makers::Centers(lattice(layers, k, interrupt)?),
-            (Placed::Corners(layers), Some(k)) => Makers::Corners(lattice(layers, k, interrupt)?),
+            (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
+            (Placed::Corners(layers), Some(k)) => Makers::Corners(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), None) => {
                 Makers::AnyAngle(AnyAngleFields::interruptible(Arc::clone(&layers.free), interrupt)?)
             }
@@ -106,8 +106,8 @@ impl Space {
     }
 }
 
-/// What makes fields over N(k).
-fn lattice<P: Shared>(
+/// A maker of fields over N(k).
+fn fields_over<P: Shared>(
     layers: &Layers<P>,
     k: FiniteK,
     interrupt: &Interrupt,
@@ -248,7 +248,7 @@ impl Field {
         of_each!(&self.inner, field => field.height())
     }
 
-    /// What the field belongs to.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         of_each!(&self.inner, field => field.identity())

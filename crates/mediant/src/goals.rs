@@ -47,7 +47,7 @@ impl Goals {
         &self.0.vertices
     }
 
-    /// What they belong to: the map, rules and k of their index.
+    /// The identity: the map, rules and k of their index.
     #[must_use]
     pub fn identity(&self) -> Identity {
         self.0.identity
@@ -133,7 +133,7 @@ where
     }
 }
 
-/// How a planner asks for prepared goals.
+/// The many-goals search of a planner, and its scratch memory.
 #[derive(Default)]
 pub(crate) struct Asked {
     /// Made when it is first needed.
@@ -166,7 +166,7 @@ impl Planner {
     /// rounding.
     ///
     /// # Errors
-    /// Those of [`distances`](Self::distances).
+    /// As for [`distances`](Self::distances).
     pub fn nearest(
         &mut self,
         start: impl Into<Vertex>,

@@ -62,7 +62,7 @@ pub(crate) fn search(index: &Index) -> Result<Boxed, Error> {
     }
 }
 
-/// What asks for many goals at once on an index with hub labels; `None` for others.
+/// The many-goals search of an index with hub labels; `None` for other indexes.
 pub(crate) fn to_goals(index: &Index) -> Result<Option<Box<dyn ToGoals + Send>>, Error> {
     Ok(match &index.prepared {
         Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => {
@@ -78,7 +78,7 @@ pub(crate) fn to_goals(index: &Index) -> Result<Option<Box<dyn ToGoals + Send>>,
 /// Smooths a path.
 pub(crate) type Smoother = Box<dyn Fn(&Path) -> Path + Send>;
 
-/// What smooths the paths of an index's planners.
+/// The smoother of an index's paths.
 pub(crate) fn smoother(index: &Index, smoothing: Smoothing) -> Smoother {
     match &index.prepared {
         Prepared::Centers(graph, _) => smoother_in(Arc::clone(graph), smoothing),

@@ -76,7 +76,7 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// Those of [`open`](Self::open).
+    /// As for [`open`](Self::open).
     pub fn open_with(
         path: impl AsRef<FilePath>,
         options: &MapOptions,
@@ -89,7 +89,7 @@ impl Map {
     /// stops it before it is done.
     ///
     /// # Errors
-    /// Those of [`open`](Self::open), and [`Error::Stopped`].
+    /// As for [`open`](Self::open), and [`Error::Stopped`].
     pub fn open_within(
         path: impl AsRef<FilePath>,
         options: &MapOptions,
@@ -113,7 +113,7 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// Those of `read`, and [`Error::Read`] for what is no map.
+    /// Errors of `read`, and [`Error::Read`] for a file that is no map.
     pub fn open_in(
         path: impl AsRef<FilePath>,
         options: &MapOptions,
@@ -127,7 +127,7 @@ impl Map {
     /// before it is made. `read` is that of [`open_in`](Self::open_in).
     ///
     /// # Errors
-    /// Those of `read`, and [`Error::Read`] for a header that is wrong.
+    /// Errors of `read`, and [`Error::Read`] for a header that is wrong.
     pub fn size_in(
         path: impl AsRef<FilePath>,
         read: impl FnMut(&FilePath) -> Result<Vec<u8>, ReadError>,
@@ -157,7 +157,7 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// Those of [`from_rows`](Self::from_rows).
+    /// As for [`from_rows`](Self::from_rows).
     pub fn from_rows_with<R: AsRef<str>>(
         rows: impl IntoIterator<Item = R>,
         tiles: &Tiles,
@@ -357,7 +357,7 @@ impl FromStr for Map {
     type Err = Error;
 
     /// # Errors
-    /// Those of [`Map::from_rows`].
+    /// As for [`Map::from_rows`].
     fn from_str(text: &str) -> Result<Self, Error> {
         Self::from_rows(text.trim().lines().map(str::trim))
     }

@@ -46,7 +46,7 @@ pub struct Motion {
     pub k: K,
     /// The placement of the vertices, and its rule of motion.
     pub rules: Rules,
-    /// What is wrong with the number that `k` stands for, if `k` is still [`NO_K`].
+    /// The error of the number that `k` stands for, if `k` is still [`NO_K`].
     refused: Option<KError>,
 }
 
@@ -61,7 +61,7 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// What says which k is meant: a [`K`], a [`FiniteK`], or an integer of any width.
+/// The types of a k: [`K`], [`FiniteK`], and integers of any width.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no k: give a number such as 3, or a `K` such as `K::N8` or `K::ANY`",
     label = "neither an integer nor a `K`"

@@ -121,7 +121,7 @@ impl Planners {
     /// Answers a query or a request.
     ///
     /// # Errors
-    /// Those of [`Planner::find`].
+    /// As for [`Planner::find`].
     pub fn find(&self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
         self.with(|planner| planner.find(request))
     }
@@ -129,7 +129,7 @@ impl Planners {
     /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
     ///
     /// # Errors
-    /// Those of [`Planner::find`].
+    /// As for [`Planner::find`].
     pub fn path(
         &self,
         start: impl Into<Vertex>,
@@ -180,7 +180,7 @@ impl Planners {
     }
 }
 
-/// What `work` makes of each number below `count`; with the feature `parallel` on all cores.
+/// Maps each number below `count` by `work`, in order; with the feature `parallel` on all cores.
 #[cfg(feature = "parallel")]
 pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -191,7 +191,7 @@ pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) 
     (0..count).into_par_iter().map(&work).collect()
 }
 
-/// What `work` makes of each number below `count`.
+/// Maps each number below `count` by `work`.
 #[cfg(not(feature = "parallel"))]
 pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).map(work).collect()

@@ -40,7 +40,7 @@ impl<K, V> Default for Kept<K, V> {
 }
 
 impl<K: PartialEq, V: Clone> Kept<K, V> {
-    /// As many are kept. Who asks for more in turn should prepare an index each.
+    /// The number of values that are kept. A caller that uses more in turn should prepare an index each.
     const MOST: usize = 4;
 
     fn get(&self, key: &K) -> Option<V> {
@@ -57,7 +57,7 @@ impl<K: PartialEq, V: Clone> Kept<K, V> {
     }
 }
 
-/// What is kept says nothing of the map.
+/// Without the kept values, which say nothing of the map.
 impl fmt::Debug for Recent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Recent")
@@ -84,7 +84,7 @@ impl Map {
     /// not kept. Of the limits the deadline and the flag count.
     ///
     /// # Errors
-    /// Those of [`space`](Self::space), and [`Error::Stopped`].
+    /// As for [`space`](Self::space), and [`Error::Stopped`].
     pub fn keep_space(&self, motion: Motion, limits: impl Into<Limits>) -> Result<Space, Error> {
         if let Some(space) = self.kept_space(motion) {
             return Ok(space);
@@ -104,7 +104,7 @@ impl Map {
     /// setups. Of the limits the deadline and the flag count.
     ///
     /// # Errors
-    /// Those of [`space`](Self::space) and [`Space::prepare`], and [`Error::Stopped`].
+    /// As for [`space`](Self::space) and [`Space::prepare`], and [`Error::Stopped`].
     pub fn keep_planners(&self, setup: &Setup, limits: impl Into<Limits>) -> Result<Arc<Planners>, Error> {
         if let Some(planners) = self.kept_planners(setup) {
             return Ok(planners);

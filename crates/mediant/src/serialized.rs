@@ -1,4 +1,4 @@
-//! What serde reads and writes: motion by its parts, engines, setups and options by their text.
+//! Serde's forms: motion by its parts; engines, setups and options by their text.
 
 use mediant_grid::Rules;
 use mediant_moves::K;

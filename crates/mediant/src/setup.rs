@@ -67,7 +67,7 @@ impl Setup {
         SetupError::NeedsFiniteK { engine: self.engine.kind(), max, others }
     }
 
-    /// What the engine can do.
+    /// The capabilities of the engine.
     #[must_use]
     pub const fn capabilities(&self) -> Capabilities {
         self.engine.kind().capabilities()

@@ -16,7 +16,7 @@ pub enum SetupError {
     Option {
         /// The engine.
         engine: Engine,
-        /// What the error calls it.
+        /// The option's noun: `jump limit`.
         option: &'static str,
         /// The engines that take it.
         others: String,
@@ -120,7 +120,7 @@ pub enum SetupError {
     Without {
         /// The engine.
         engine: Engine,
-        /// What it does not have.
+        /// The missing part: `index`, or `distances to all vertices`.
         what: &'static str,
         /// The engines that have it.
         others: String,

@@ -40,7 +40,7 @@ struct Inner {
     placed: Placed,
 }
 
-/// What can be searched, by placement.
+/// The free space and the grid graph, by placement.
 #[derive(Debug)]
 pub(crate) enum Placed {
     Centers(Layers<Centers>),
@@ -143,7 +143,7 @@ impl Space {
         self.inner.motion
     }
 
-    /// What the space is: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         let Motion { k, rules, .. } = self.motion();

@@ -41,7 +41,7 @@ impl<'g, W: Write> Tracer<'g, W> {
     /// Begins a trace of a search on this map.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// Errors of the writer.
     pub fn new(out: W, grid: &'g Grid, placement: PlacementKind) -> io::Result<Self> {
         let more = u32::from(placement == PlacementKind::Corner);
         let size = (grid.width() + more, grid.height() + more);

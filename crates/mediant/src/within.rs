@@ -27,8 +27,8 @@ use crate::{
 pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 
 /// A map, space or index whose work stops at a deadline or by a flag: each call that can take long is also a
-/// call of this one, with the same result. What was stopped returns [`Error::Stopped`] soon, keeps no memory
-/// and leaves no thread at work. What was made knows nothing of the limits.
+/// call of this one, with the same result. A stopped call returns [`Error::Stopped`] soon, keeps no memory
+/// and leaves no thread at work. Results know nothing of the limits.
 ///
 /// The time, the deadline and the flag of the [`Limits`](crate::Limits) count; those on cost and expansions
 /// are of searches.
@@ -42,7 +42,7 @@ pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 /// let map = Map::from_fn(40, 30, |x, _| x == 20)?;
 /// let space = map.within(&limits).space(Motion::corners(K::ANY))?;
 /// let index = space.within(&limits).prepare(Engine::Subgoal)?;
-/// // What another thread would do.
+/// // Another thread would do this.
 /// cancelled.store(true, Ordering::Relaxed);
 /// let stopped = space.within(&limits).prepare(Engine::Subgoal).unwrap_err();
 /// assert_eq!(stopped.code(), ErrorCode::Cancelled);
@@ -82,7 +82,7 @@ impl Within<'_, Map> {
     /// [`Map::space`].
     ///
     /// # Errors
-    /// Those of [`Map::space`], and [`Error::Stopped`].
+    /// As for [`Map::space`], and [`Error::Stopped`].
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::new(self.of, motion.into(), self.limits.interrupt())
     }
@@ -90,7 +90,7 @@ impl Within<'_, Map> {
     /// [`Map::path`].
     ///
     /// # Errors
-    /// Those of [`Map::path`], and [`Error::Stopped`].
+    /// As for [`Map::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         self.of.path_of(Query::new(start, goal), &self.limits)
     }
@@ -107,7 +107,7 @@ impl Within<'_, Map> {
     /// [`Map::for_disc`].
     ///
     /// # Errors
-    /// Those of [`Map::for_disc`], and [`Error::Stopped`].
+    /// As for [`Map::for_disc`], and [`Error::Stopped`].
     pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Map, Error> {
         let motion = motion.into();
         motion.check_k()?;
@@ -118,7 +118,7 @@ impl Within<'_, Map> {
     /// [`Map::for_square`].
     ///
     /// # Errors
-    /// Those of [`Map::for_square`], and [`Error::Stopped`].
+    /// As for [`Map::for_square`], and [`Error::Stopped`].
     pub fn for_square(&self, n: u32) -> Result<Map, Error> {
         Ok(self.of.grid().for_square_interruptible(n, self.limits.interrupt())?.into())
     }
@@ -126,7 +126,7 @@ impl Within<'_, Map> {
     /// [`Map::load`].
     ///
     /// # Errors
-    /// Those of [`Map::load`], and [`Error::Stopped`].
+    /// As for [`Map::load`], and [`Error::Stopped`].
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
         self.of.load_index(path.as_ref(), self.limits.interrupt())
     }
@@ -134,7 +134,7 @@ impl Within<'_, Map> {
     /// [`Map::index_from_bytes`].
     ///
     /// # Errors
-    /// Those of [`Map::index_from_bytes`], and [`Error::Stopped`].
+    /// As for [`Map::index_from_bytes`], and [`Error::Stopped`].
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
         self.of.read_index(bytes, self.limits.interrupt())
     }
@@ -144,7 +144,7 @@ impl Within<'_, Space> {
     /// [`Space::prepare`].
     ///
     /// # Errors
-    /// Those of [`Space::prepare`], and [`Error::Stopped`].
+    /// As for [`Space::prepare`], and [`Error::Stopped`].
     pub fn prepare(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
         self.prepare_with_progress(engine, &|_| {})
     }
@@ -152,7 +152,7 @@ impl Within<'_, Space> {
     /// [`Space::prepare_with_progress`].
     ///
     /// # Errors
-    /// Those of [`Space::prepare_with_progress`], and [`Error::Stopped`].
+    /// As for [`Space::prepare_with_progress`], and [`Error::Stopped`].
     pub fn prepare_with_progress(
         &self,
         engine: impl Into<ConfiguredEngine>,
@@ -165,7 +165,7 @@ impl Within<'_, Space> {
     /// [`Space::prepare_for_one_path`].
     ///
     /// # Errors
-    /// Those of [`Space::prepare_for_one_path`], and [`Error::Stopped`].
+    /// As for [`Space::prepare_for_one_path`], and [`Error::Stopped`].
     pub fn prepare_for_one_path(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
         let interrupt = self.limits.interrupt();
         let source = Source { for_one_path: true, interrupt, ..Source::new(&|_| {}) };
@@ -175,7 +175,7 @@ impl Within<'_, Space> {
     /// [`Space::planner`].
     ///
     /// # Errors
-    /// Those of [`Space::planner`], and [`Error::Stopped`].
+    /// As for [`Space::planner`], and [`Error::Stopped`].
     pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
         self.prepare(engine)?.try_planner()
     }
@@ -183,7 +183,7 @@ impl Within<'_, Space> {
     /// [`Space::path`].
     ///
     /// # Errors
-    /// Those of [`Space::path`], and [`Error::Stopped`].
+    /// As for [`Space::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         self.of.path_of(Query::new(start, goal), &self.limits)
     }
@@ -191,7 +191,7 @@ impl Within<'_, Space> {
     /// [`Space::field`].
     ///
     /// # Errors
-    /// Those of [`Space::field`], and [`Error::Stopped`].
+    /// As for [`Space::field`], and [`Error::Stopped`].
     pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
         self.field_within(sources, f64::INFINITY)
     }
@@ -199,7 +199,7 @@ impl Within<'_, Space> {
     /// [`Space::field_within`].
     ///
     /// # Errors
-    /// Those of [`Space::field_within`], and [`Error::Stopped`].
+    /// As for [`Space::field_within`], and [`Error::Stopped`].
     pub fn field_within<V: Into<Vertex>>(
         &self,
         sources: impl IntoIterator<Item = V>,
@@ -212,7 +212,7 @@ impl Within<'_, Space> {
     /// [`Space::distances`].
     ///
     /// # Errors
-    /// Those of [`Space::distances`], and [`Error::Stopped`].
+    /// As for [`Space::distances`], and [`Error::Stopped`].
     pub fn distances(&self, engine: Engine, start: impl Into<Vertex>) -> Result<Vec<(Vertex, f64)>, Error> {
         self.of.distances_of(engine, start.into(), self.limits.interrupt())
     }
@@ -220,7 +220,7 @@ impl Within<'_, Space> {
     /// [`Space::widest_path`].
     ///
     /// # Errors
-    /// Those of [`Space::widest_path`], and [`Error::Stopped`].
+    /// As for [`Space::widest_path`], and [`Error::Stopped`].
     pub fn widest_path(
         &self,
         start: impl Into<Vertex>,
@@ -233,7 +233,7 @@ impl Within<'_, Space> {
     /// [`Space::load`].
     ///
     /// # Errors
-    /// Those of [`Space::load`], and [`Error::Stopped`].
+    /// As for [`Space::load`], and [`Error::Stopped`].
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
         self.of.load_index(path.as_ref(), None, self.limits.interrupt())
     }
@@ -241,7 +241,7 @@ impl Within<'_, Space> {
     /// [`Space::load_for`].
     ///
     /// # Errors
-    /// Those of [`Space::load_for`], and [`Error::Stopped`].
+    /// As for [`Space::load_for`], and [`Error::Stopped`].
     pub fn load_for(
         &self,
         engine: impl Into<ConfiguredEngine>,
@@ -253,7 +253,7 @@ impl Within<'_, Space> {
     /// [`Space::index_from_bytes`].
     ///
     /// # Errors
-    /// Those of [`Space::index_from_bytes`], and [`Error::Stopped`].
+    /// As for [`Space::index_from_bytes`], and [`Error::Stopped`].
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
         self.of.read_index(bytes, self.limits.interrupt())
     }
@@ -263,7 +263,7 @@ impl Within<'_, Index> {
     /// [`Index::save`]. An older file stays where this is stopped.
     ///
     /// # Errors
-    /// Those of [`Index::save`], and [`Error::Stopped`].
+    /// As for [`Index::save`], and [`Error::Stopped`].
     pub fn save(&self, path: impl AsRef<FilePath>) -> Result<(), Error> {
         self.of.write(path.as_ref(), self.limits.interrupt())
     }
@@ -279,7 +279,7 @@ impl Within<'_, Index> {
     /// [`Index::repair`]; the index stays as it is.
     ///
     /// # Errors
-    /// Those of [`Index::repair`], and [`Error::Stopped`].
+    /// As for [`Index::repair`], and [`Error::Stopped`].
     pub fn repair(&self, change: &Change) -> Result<Index, Error> {
         self.of.repaired(change, self.limits.interrupt())
     }
@@ -287,7 +287,7 @@ impl Within<'_, Index> {
     /// [`Index::for_k`].
     ///
     /// # Errors
-    /// Those of [`Index::for_k`], and [`Error::Stopped`].
+    /// As for [`Index::for_k`], and [`Error::Stopped`].
     pub fn for_k(&self, k: K) -> Result<Index, Error> {
         self.of.prepared_for_k(k, self.limits.interrupt())
     }
@@ -295,7 +295,7 @@ impl Within<'_, Index> {
     /// [`Index::goals`].
     ///
     /// # Errors
-    /// Those of [`Index::goals`], and [`Error::Stopped`].
+    /// As for [`Index::goals`], and [`Error::Stopped`].
     pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
         self.of.goals_of(goals.into_iter().map(Into::into).collect(), self.limits.interrupt())
     }
@@ -303,7 +303,7 @@ impl Within<'_, Index> {
     /// [`Index::table`].
     ///
     /// # Errors
-    /// Those of [`Index::table`], and [`Error::Stopped`].
+    /// As for [`Index::table`], and [`Error::Stopped`].
     pub fn table<S: Into<Vertex>, G: Into<Vertex>>(
         &self,
         starts: impl IntoIterator<Item = S>,

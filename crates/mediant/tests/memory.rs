@@ -53,7 +53,7 @@ const SLACK: usize = 20 << 10;
 /// Bytes of a planner that do not depend on the map.
 const OWN: usize = 48 << 10;
 
-/// What `make` makes, and how many bytes that keeps.
+/// The result of `make`, and the bytes that it keeps allocated.
 fn kept<T>(make: impl FnOnce() -> T) -> (T, usize) {
     let before = BYTES.load(Ordering::Relaxed);
     let made = make();
@@ -122,7 +122,7 @@ fn eight_planners_share_one_index() {
         (Engine::Theta, Motion::centers(K::N8), 26),
         (Engine::LazyTheta, Motion::centers(K::N8), 26),
         (Engine::Wavefront, Motion::centers(K::N8), 20),
-        // What follows the search, not the map: nodes and blocks of roots.
+        // Nodes and blocks of roots, which follow the search, not the map.
         (Engine::Anya, Motion::corners(K::ANY), 16),
         (Engine::Anya, Motion::corners(K::N16), 24),
     ] {

@@ -39,7 +39,7 @@ use crate::{arrays::PathPoints, errors::made};
 /// ('found', 6.0)
 #[pyclass(frozen, module = "mediant")]
 pub(crate) struct Answer {
-    /// What became of the query.
+    /// The status of the query.
     #[pyo3(get)]
     status: &'static str,
     /// The path, shape (n, 2).

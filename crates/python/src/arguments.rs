@@ -12,9 +12,9 @@ use pyo3::{
 
 use crate::errors::{argument, far_outside, instead, raised_for, wrong_type};
 
-/// What a point looks like.
+/// The form of a point, for errors.
 const POINT: &str = "a point (row, column) of two integers";
-/// What one or several points look like.
+/// The form of one or several points, for errors.
 const POINTS: &str = "a point (row, column), or an integer array of points with shape (n, 2)";
 
 /// One point, or several.
@@ -181,7 +181,7 @@ pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     })
 }
 
-/// What is wrong with a number that has no room.
+/// The error of a number that has no room.
 const TOO_LARGE: &str = "the number is too large";
 
 /// A number that is not negative, nor none.

@@ -223,7 +223,7 @@ pub(crate) fn patch(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<bool>
     Ok((cells.iter().map(|&cell| cell != 0).collect(), rows, columns))
 }
 
-/// Which points of a path an array has.
+/// The points of a path that an array has.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PathPoints {
     Waypoints,

@@ -16,8 +16,8 @@ use pyo3::prelude::*;
 /// How often signals are looked at.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// How long an interruption waits for the work to end. What can take long ends within some milliseconds; this
-/// is for what cannot be stopped, such as a write to a disk.
+/// How long an interruption waits for the work to end. Most work ends within some milliseconds; this is for
+/// work that cannot be stopped, such as a write to a disk.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds.
@@ -29,8 +29,8 @@ pub(crate) fn has_labels(index: &Index) -> bool {
 }
 
 /// Whether a search on an index can take so long that it is watched: more expansions, each of more moves,
-/// than can be made in about 20 ms. What was prepared saves most of them. A plain query is one from a vertex
-/// to another without wishes.
+/// than can be made in about 20 ms. Preparation saves most of them. A plain query is one from a vertex to
+/// another without wishes.
 pub(crate) fn is_watched(index: &Index, is_plain: bool) -> bool {
     if is_plain && has_labels(index) {
         return false;
@@ -124,7 +124,7 @@ pub(crate) fn in_pool<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T 
     }
 }
 
-/// What a watched search was interrupted by, if it was.
+/// The exception that interrupted a watched search, if one did.
 #[derive(Clone, Default)]
 pub(crate) struct Interruption(Arc<Mutex<Option<PyErr>>>);
 

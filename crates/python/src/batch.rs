@@ -59,7 +59,7 @@ impl Numbered {
     }
 }
 
-/// What becomes of a query with an invalid end.
+/// The treatment of queries with an invalid end.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Invalid {
     Raise,

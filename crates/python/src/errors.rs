@@ -75,8 +75,8 @@ pub(crate) fn class_name(value: &Bound<'_, PyAny>) -> String {
     value.get_type().name().map_or_else(|_| "another type".to_owned(), |name| name.to_string())
 }
 
-/// The exception that stands for another one, which it names as its cause. What is no mistake of an argument
-/// (Ctrl-C, an exit, no memory) stays as it is.
+/// The exception that stands for another one, which it names as its cause. An exception that is no mistake of
+/// an argument (Ctrl-C, an exit, no memory) stays as it is.
 pub(crate) fn instead(py: Python<'_>, cause: PyErr, error: PyErr) -> PyErr {
     if !cause.is_instance_of::<PyException>(py) || cause.is_instance_of::<PyMemoryError>(py) {
         return cause;

@@ -127,7 +127,7 @@ impl Field {
     /// point : tuple of int
     ///     (row, column).
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What the array has: see `Grid.find`.
+    ///     The points of the array: see `Grid.find`.
     ///
     /// Returns
     /// -------

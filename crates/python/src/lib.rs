@@ -18,10 +18,10 @@
 //! # Time
 //!
 //! A query on an index of a small map takes microseconds: it runs on the caller's thread with the GIL
-//! released. What can take longer is watched. A search has a deadline that the library asks for every 64
-//! expansions, which looks at the clock, and every 20 ms for signals. What cannot be stopped from outside
-//! (preparation, fields, batches) runs on a thread of its own, and the caller's thread looks. If it is
-//! interrupted, batches stop, and the rest is finished for nothing and thrown away.
+//! released. A longer call is watched. A search has a deadline that the library asks for every 64 expansions,
+//! which looks at the clock, and every 20 ms for signals. Other work (preparation, fields, batches) runs on a
+//! thread of its own, and the caller's thread looks. An interruption sets the flag that stops the work, and
+//! is raised when the work has ended.
 //!
 //! Each call that works on all cores makes a pool of threads of its own. A process that was forked has no
 //! threads of its parent's, and would wait forever for those of a shared pool.

@@ -44,7 +44,7 @@ pub(crate) struct Paths {
     /// The lengths in cells.
     #[pyo3(get)]
     pub(crate) distances: Py<PyArray1<f64>>,
-    /// What became of the queries, by number.
+    /// The status of each query, as a number.
     #[pyo3(get)]
     pub(crate) statuses: Py<PyArray1<u8>>,
 }

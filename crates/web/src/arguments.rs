@@ -8,9 +8,9 @@ use wasm_bindgen::{JsCast, convert::TryFromJsValue, prelude::*};
 
 use crate::errors::{argument, coded, no_memory, raised_for, wrong_type};
 
-/// What a point looks like.
+/// The form of a point, for errors.
 const POINT: &str = "a point [x, y] of two integers";
-/// What one or several points look like.
+/// The form of one or several points, for errors.
 const POINTS: &str = "a point [x, y], an array of points, or an Int32Array of x, y, …";
 
 /// One point, or several.

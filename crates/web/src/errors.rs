@@ -56,7 +56,7 @@ pub(crate) fn coded(code: ErrorCode, text: &str) -> JsValue {
     error.into()
 }
 
-/// What a value is, for an error.
+/// The kind of a value, for an error.
 pub(crate) fn kind(value: &JsValue) -> String {
     if value.is_undefined() {
         return "undefined".to_owned();

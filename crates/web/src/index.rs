@@ -1,4 +1,4 @@
-//! What an engine prepared.
+//! Indexes: the preparation of an engine.
 
 use js_sys::Uint8Array;
 use mediant::{Change, Index as Inner, Levels};
@@ -13,8 +13,8 @@ use crate::{
     space::Space,
 };
 
-/// What an engine prepared in a space: `Space.prepare`, `Space.load` and `repair` make it. It never changes;
-/// any number of planners share it.
+/// The preparation of an engine in a space: `Space.prepare`, `Space.load` and `repair` make it. It never
+/// changes; any number of planners share it.
 #[wasm_bindgen]
 pub struct Index {
     pub(crate) inner: Inner,
@@ -56,7 +56,7 @@ impl Index {
         self.inner.setup().to_string()
     }
 
-    /// What is guaranteed of its paths: `"optimal(3)"`, `"optimal(any)"`, `"at-most(3)"`, `"suboptimal"`.
+    /// The guarantee of its paths: `"optimal(3)"`, `"optimal(any)"`, `"at-most(3)"`, `"suboptimal"`.
     #[wasm_bindgen(getter)]
     pub fn guarantee(&self) -> String {
         self.inner.setup().guarantee().to_string()

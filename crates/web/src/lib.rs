@@ -14,8 +14,8 @@
 //! WebAssembly has no way back from a panic: the instance is lost with all its objects, and a page with it.
 //! So nothing that a page gives may lead to one.
 //!
-//! - Every argument comes in as a value of JavaScript and is looked at here. What wasm-bindgen would convert
-//!   by itself, it would convert in silence: `undefined` to 0, -1 to 4,294,967,295.
+//! - Every argument comes in as a value of JavaScript and is looked at here. wasm-bindgen's own conversions
+//!   would be silent: `undefined` to 0, -1 to 4,294,967,295.
 //! - Objects of our classes come in through `arguments::object`, which takes a second handle by a method that
 //!   the type declarations do not show. wasm-bindgen's own way takes the object away from its owner, or
 //!   throws an error without a name and a code. So every class is a handle (`Arc`, `Rc`), and what can be

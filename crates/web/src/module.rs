@@ -1,4 +1,4 @@
-//! What needs no map.
+//! Functions that need no map.
 
 use js_sys::{Array, Int32Array};
 use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup, call::Spelling, moves::Neighborhood};

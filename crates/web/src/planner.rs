@@ -35,13 +35,13 @@ pub struct Planner {
     state: Rc<RefCell<State>>,
 }
 
-/// A planner, and what it answered last.
+/// A planner, with its last answer.
 struct State {
     inner: Inner,
     last: Option<Outcome>,
 }
 
-/// What a planner searched last: where, and with which answer.
+/// The last search of a planner: its space and its answer.
 pub(crate) struct Searched {
     pub(crate) space: Space,
     pub(crate) answer: Option<Outcome>,
@@ -67,7 +67,7 @@ impl Planner {
         Ok(state)
     }
 
-    /// What it searched last.
+    /// Its last search.
     pub(crate) fn searched(&self) -> Result<Searched, JsValue> {
         let state = self.state()?;
         Ok(Searched { space: state.inner.index().space().clone(), answer: state.last.clone() })

@@ -215,8 +215,8 @@ impl Space {
         Ok(Index { inner: index })
     }
 
-    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. What is
-    /// exactly so far is in the field.
+    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
+    /// at exactly that distance is in the field.
     ///
     /// ```js
     /// const field = space.field([0, 0]);
@@ -273,8 +273,9 @@ impl Space {
 }
 
 thread_local! {
-    /// Who listens to the preparations that run, the last one first: the library's listener must be able to
-    /// go to other threads, and a function of JavaScript is not. What a listener has thrown stands beside it.
+    /// The listeners of the preparations that run, the innermost last: the library's listener must be able to
+    /// go to other threads, and a function of JavaScript is not. Beside each stands the value that it has
+    /// thrown.
     static LISTENERS: RefCell<Vec<Listener>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -292,7 +293,7 @@ impl Listening {
     /// Ends it.
     ///
     /// # Errors
-    /// What the listener has thrown.
+    /// The value that the listener has thrown.
     fn end(self) -> Result<(), JsValue> {
         let listener = LISTENERS.with_borrow_mut(Vec::pop);
         listener.and_then(|(_, thrown)| thrown).map_or(Ok(()), Err)

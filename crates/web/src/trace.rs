@@ -1,4 +1,4 @@
-//! What a search did, event by event.
+//! The events of a search, one by one.
 
 use std::{
     cell::{RefCell, RefMut},
@@ -44,7 +44,7 @@ pub(crate) struct Events {
     is_cut: bool,
 }
 
-/// What happened to a vertex.
+/// The kind of an event at a vertex.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
     Expanded,
@@ -102,7 +102,7 @@ impl Observer for Events {
 }
 
 impl Trace {
-    /// What records the events of a search in this space.
+    /// The recorder of a search in this space.
     pub(crate) fn recorder(&self, space: &Inner) -> Result<RefMut<'_, Events>, JsValue> {
         let mut events = self.events.try_borrow_mut().map_err(|_| in_use())?;
         let row = row_of(space);
@@ -163,7 +163,7 @@ impl Trace {
     }
 }
 
-/// What was expanded, and what was only reached.
+/// The vertices that were expanded, and those that were only generated.
 type Expanded = (Vec<Vertex>, Vec<Vertex>);
 
 /// The number of vertices in a row.

@@ -254,10 +254,10 @@ extern "C" {
     /// Motion with all that it has.
     #[wasm_bindgen(typescript_type = "WholeMotion")]
     pub type JsMotion;
-    /// What engines can do.
+    /// The capabilities of engines.
     #[wasm_bindgen(typescript_type = "EngineInfo[]")]
     pub type JsEngines;
-    /// An engine, and why.
+    /// A recommended engine, with the reason.
     #[wasm_bindgen(typescript_type = "{ engine: string; why: string }")]
     pub type JsChoice;
 }

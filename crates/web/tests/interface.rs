@@ -124,7 +124,7 @@ fn spaces_and_indexes() {
     assert_eq!(thrown(&grid, "space", &[json(r#"{"neighbors": 6}"#)]), "MediantError k");
     // Engines as people write them.
     assert_eq!(get(&ok(&space, "prepare", &["JPS+".into()]), "setup"), "jps-plus:3:never");
-    // What a space says of its motion makes the same space.
+    // The motion of a space makes the same space.
     ok(&grid, "space", &[get(&space, "motion")]);
     assert_eq!(ok(&space, "isFree", &[at(3, 0)]), JsValue::FALSE);
     assert_eq!(ok(&space, "sees", &[at(0, 0), at(2, 0)]), JsValue::TRUE);
@@ -167,7 +167,7 @@ fn spaces_and_indexes() {
     assert_eq!(get(&answer, "status"), "unreachable");
     let other = ok(&grid, "space", &[json(r#"{"k": 2}"#)]);
     assert_eq!(thrown(&hpa, "repair", &[other]), "MediantError mismatch");
-    // What a listener throws comes out, and the space is as it was.
+    // The error of a listener comes out, and the space is as it was.
     let throws = Function::new_no_args("throw new Error('enough')").into();
     let error = call(&space, "prepare", &[NONE, NONE, throws]).expect_err("the listener throws");
     assert_eq!(get(&error, "message"), "enough");

@@ -206,7 +206,7 @@ fn getters_that_throw_and_call_back() {
     ok(&space, "prepare", &["subgoal".into(), JsValue::UNDEFINED, nested]);
 }
 
-/// What nobody would pass on purpose.
+/// Values that nobody would pass on purpose.
 fn odd_values() -> Vec<JsValue> {
     [
         "null",

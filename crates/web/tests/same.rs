@@ -26,7 +26,7 @@ const QUERIES: usize = 2;
 /// A digest of what an engine answered, and of how many queries.
 type Row = (&'static str, u64, u64);
 
-/// What every platform finds.
+/// The digests that every platform finds.
 const EXPECTED: [Row; 14] = [
     ("astar", 0x3d56_eb4b_53f4_3c19, 168),
     ("dijkstra", 0x4dbe_ae31_28fa_7f5b, 28),

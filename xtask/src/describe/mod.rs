@@ -18,7 +18,7 @@ use crate::{Error, tidy::Tree};
 /// The file of the description, from the root.
 pub const FILE: &str = "docs/description.json";
 
-/// What the library says of itself.
+/// The library's description of itself.
 #[derive(Debug, Deserialize)]
 pub struct Description {
     parameters: Vec<Parameter>,

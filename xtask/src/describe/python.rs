@@ -32,7 +32,7 @@ pub(super) fn keywords(description: &Description) -> String {
     }
     for (group, name, about) in [
         ("motion", "Motion", "How an agent moves."),
-        ("wishes", "Wishes", "What is asked of a path beyond its ends."),
+        ("wishes", "Wishes", "Wishes beyond the ends of a path."),
         ("options", "Options", "The options of engines. Each engine takes some of them."),
     ] {
         _ = writeln!(text, "\nclass {name}(TypedDict, total=False):\n    \"\"\"{about}\"\"\"\n");

@@ -6,7 +6,7 @@ use super::{finding::Finding, tree::Tree};
 
 /// The most lines of comments in the project that may begin with a clause. It only falls: whoever rewords
 /// some lowers it to the number that is left.
-pub const MOST_CLAUSES: usize = 236;
+pub const MOST_CLAUSES: usize = 0;
 /// The words that begin such a clause: 'What a cell holds', 'Those that are free'.
 const WORDS: [&str; 2] = ["What ", "Those "];
 

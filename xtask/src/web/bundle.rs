@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use super::parts::File;
 use crate::{Error, ci::step};
 
-/// What is bundled, in two runs: scripts as such, and the module with the styles.
+/// The entry points of esbuild's two runs: scripts as such, and the module with the styles.
 const RUNS: [(&str, &[&str]); 2] = [
     ("iife", &["start=src/start.js", "worker=src/worker.js"]),
     ("esm", &["page=src/main.js", "page=style/page.css"]),

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::Error;
 
-/// What the browser shows first.
+/// The page that the browser loads first.
 const HEAD: &str = "index.html";
 /// Where the head says its version, which goes into the addresses of all other files.
 const UNVERSIONED_HEAD: &str = "data-version=\"\"";
@@ -20,11 +20,11 @@ const UNVERSIONED_HEAD: &str = "data-version=\"\"";
 const WORKER: &str = "offline.js";
 /// Where the service worker says its version. A browser looks for a new one by comparing the file.
 const UNVERSIONED: &str = "const VERSION = \"\";";
-/// What no browser needs but its debugger: where code was in the sources.
+/// The ending of source maps, which only a browser's debugger needs.
 const SOURCE_MAP: &str = ".js.map";
-/// What lies beside the sources and goes into the page as it is.
+/// The files beside the sources that go into the page as they are.
 const AS_IT_IS: [&str; 3] = ["icon.svg", "manifest.webmanifest", WORKER];
-/// What all may weigh that the first path needs, as it travels from any server of files, in bytes.
+/// The most bytes of all files that the first path needs, as they travel from any server of files.
 const LARGEST: usize = 800_000;
 
 /// Bundles the page with the package that lies in the folder `web`, and writes it there. Returns its version.

@@ -1,4 +1,5 @@
-//! What builds the package and the page: Rust for WebAssembly, the programs `wasm-bindgen` and esbuild.
+//! The tools that build the package and the page: Rust for WebAssembly, the programs `wasm-bindgen` and
+//! esbuild.
 
 use std::{
     env, fs,

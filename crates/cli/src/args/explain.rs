@@ -1,4 +1,4 @@
-//! What clap prints: help, and errors in the form of the program's own.
+//! Help and errors of clap, the errors in the form of the program's own.
 
 use std::{
     io::{self, Write},

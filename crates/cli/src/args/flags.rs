@@ -11,7 +11,7 @@ use mediant::call::{Call, CallError, Group, Kind, PARAMETERS, Parameter, Unit};
 
 /// How the agent moves.
 pub(crate) const MOTION: u8 = 1;
-/// What is asked of a path beyond its ends.
+/// Wishes beyond the ends of a path.
 pub(crate) const WISHES: u8 = 2;
 /// The engine.
 pub(crate) const ENGINE: u8 = 4;
@@ -105,7 +105,7 @@ fn flag(parameter: &'static Parameter) -> Arg {
         .hide_possible_values(names.len() <= 3)
 }
 
-/// What help says of a parameter.
+/// The help text of a parameter.
 fn help(parameter: &Parameter) -> String {
     let unit = match parameter.unit {
         Some(Unit::Time) => ", in milliseconds, for each query",
@@ -115,8 +115,8 @@ fn help(parameter: &Parameter) -> String {
     format!("{}{unit}{default}", parameter.help)
 }
 
-/// Reads the value of a parameter. What it does not take gets the library's error; a name that does not exist
-/// gets clap's, which suggests the one that is most like it.
+/// Reads the value of a parameter. A value that it does not take gets the library's error; a name that does
+/// not exist gets clap's, which suggests the one that is most like it.
 #[derive(Clone)]
 struct OfParameter(&'static Parameter);
 

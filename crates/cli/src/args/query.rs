@@ -9,11 +9,11 @@ use mediant::{Exceptions, PlacementKind, Query, Request, Vertex, call::Wishes};
 use super::value::{Place, parse_place};
 use crate::{
     failure::Failure,
-    map::Map,
+    map::NamedMap,
     terminal::numbers::{count, time},
 };
 
-/// Which path is asked for between which ends, and what stops the search for it.
+/// The ends of queries, their wishes, and the cells that count otherwise for them.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct QueryArgs {
     /// The start of a single query. Of several (repeat it), the one with the shortest path is taken
@@ -52,14 +52,19 @@ pub(crate) struct QueryArgs {
     /// The cells of `--block` and `--unblock`, once the map is known.
     #[arg(skip)]
     pub(crate) cells: [Vec<Vertex>; 2],
-    /// What is asked beyond the ends, with lengths in cells once the map is known.
+    /// Wishes beyond the ends, with lengths in cells once the map is known.
     #[arg(skip)]
     pub(crate) wishes: Wishes,
 }
 
 impl QueryArgs {
     /// Finds the vertices at the places that were named, and measures lengths in cells.
-    pub(crate) fn on(&self, wishes: &Wishes, map: &Map, placement: PlacementKind) -> Result<Self, Failure> {
+    pub(crate) fn on(
+        &self,
+        wishes: &Wishes,
+        map: &NamedMap,
+        placement: PlacementKind,
+    ) -> Result<Self, Failure> {
         let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
             places.iter().map(|&place| map.vertex(placement, place)).collect()
         };
@@ -161,7 +166,7 @@ mod tests {
         let words = "mediant run builtin:cave".split(' ').chain(options.split_whitespace());
         match Cli::try_parse_from(words).map(|cli| cli.command) {
             Ok(Command::Run(run)) => {
-                let map = Map::load(&run.map).expect("a bundled map");
+                let map = NamedMap::load(&run.map).expect("a bundled map");
                 run.query.on(run.flags.0.wishes(), &map, PlacementKind::Center).expect("vertices")
             }
             other => panic!("{other:?}"),

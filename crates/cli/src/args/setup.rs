@@ -14,8 +14,8 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
-    /// Those of a call, checked as far as can be without a map; `needs_index` asks for an engine that has
-    /// one.
+    /// The engine, options and motion of a call, checked as far as can be without a map; `needs_index` asks
+    /// for an engine with a saved index.
     pub(crate) fn of(call: &Call, needs_index: bool) -> Result<Self, Failure> {
         call.check()?;
         if let Some(engine) = call.engine().filter(|_| needs_index) {

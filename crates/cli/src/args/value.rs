@@ -13,8 +13,8 @@ use clap::{
 };
 use mediant::{FiniteK, UnknownName, Vertex};
 
-/// Reads one of these values by its name, or as people write it (`A*`). What is none of them gets clap's
-/// error, which suggests the one that is most like it.
+/// Reads one of these values by its name, or as people write it (`A*`). Any other text gets clap's error,
+/// which suggests the one that is most like it.
 pub(super) fn one_of<T: Named>(all: Vec<T>, name: fn(T) -> &'static str) -> OneOf<T> {
     OneOf { names: PossibleValuesParser::new(all.iter().cloned().map(name)), all }
 }
@@ -79,7 +79,7 @@ impl Place {
     }
 }
 
-/// Reads `X,Y`: whole numbers, or meters with a point. What is neither is told of as if it were a vertex.
+/// Reads `X,Y`: whole numbers, or meters with a point. The error of other texts is that of a vertex.
 pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let error = match parse_vertex(text) {
         Ok(at) => return Ok(Place::Vertex(at)),

@@ -1,10 +1,10 @@
-//! What is wrong with a path.
+//! Faults of paths.
 
 use std::fmt;
 
 use mediant::{BrokenPath, K, Path, Space, Vertex};
 
-/// What is wrong with a path.
+/// A fault of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fault {
     /// It does not hold on the map.
@@ -14,7 +14,7 @@ pub(crate) enum Fault {
 }
 
 impl Fault {
-    /// What is found first: whether the path holds in a space, then whether it is over N(k).
+    /// The first fault of a path: it does not hold in a space, or it is not over N(k).
     pub(crate) fn of(path: &Path, space: &Space, over: K) -> Option<Self> {
         if let Err(broken) = space.check(path) {
             return Some(Self::Broken(broken));

@@ -19,7 +19,7 @@ pub(crate) struct Listed {
     /// The index of its query; 0 for CSV.
     pub(crate) index: usize,
     pub(crate) waypoints: Waypoints,
-    /// What the line of the run says.
+    /// The setup in the line of its run, if there is one.
     pub(crate) said: Option<Said>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) enum Waypoints {
     Places(Vec<(usize, Place)>),
 }
 
-/// What the first line of a run says of all its paths.
+/// The setup in the first line of a run, which all its paths share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Said {
     pub(crate) setup: Setup,
@@ -70,7 +70,7 @@ struct RunLine {
 }
 
 impl RunLine {
-    /// What the line says, or what is wrong with it.
+    /// The setup in the line; the error is in words.
     fn said(&self) -> Result<Said, String> {
         let k = self.k.as_str().map_or_else(|| self.k.to_string(), str::to_owned);
         let rule = if self.placement == "corner" { &self.gap } else { &self.corners };
@@ -120,7 +120,7 @@ pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// A line, from 1, and what is wrong with it.
+/// A line, from 1, and its error.
 type Wrong = (usize, String);
 
 /// The lines that are not empty, with their numbers from 1.

@@ -7,7 +7,7 @@ use mediant::Demand;
 use crate::{
     args::{Asked, BuildArgs},
     failure::Failure,
-    map::{Map, file_name},
+    map::{NamedMap, file_name},
     run::report::{by_auto, falls_back},
     terminal::{
         numbers::{grouped, time},
@@ -22,7 +22,7 @@ use crate::{
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
     // A setup without an index is refused before anything is computed.
     let asked = Asked::of(&args.flags.0, true)?;
-    let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
+    let map = NamedMap::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     check_outputs(&args.map.map, &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();

@@ -13,7 +13,7 @@ use crate::{
         file::{Listed, Said, Waypoints, read, shown},
     },
     failure::{Ending, Failure},
-    map::Map,
+    map::NamedMap,
     terminal::{
         numbers::grouped,
         screen::{BOLD, Screen},
@@ -61,7 +61,7 @@ struct Rules {
 }
 
 impl Rules {
-    /// What the arguments say, else what the run says, else what is usual.
+    /// The rules of the arguments, else of the run, else the usual ones.
     fn new(args: &CheckArgs, said: Option<Said>) -> Result<Self, Failure> {
         let call = &args.motion.0;
         let over = call.k()?.or(said.map(|said| said.over)).unwrap_or(K::Any);
@@ -73,7 +73,7 @@ impl Rules {
     }
 
     /// The map of the agent that the arguments name, with the rules.
-    fn space(self, args: &CheckArgs, map: Map) -> Result<Space, Failure> {
+    fn space(self, args: &CheckArgs, map: NamedMap) -> Result<Space, Failure> {
         let map = map.for_agent(&args.map, self.motion)?;
         let Motion { k, rules, .. } = self.motion;
         // Between centers no engine searches at any angle. For sight, every k is as good.
@@ -89,7 +89,8 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
     let files = files.collect::<Result<Vec<_>, Failure>>()?;
     let by_ground = |path: &Listed| path.said.is_some_and(|said| said.grounds);
     let of_grounds = files.iter().find(|(_, listed)| listed.iter().any(by_ground));
-    let map = if of_grounds.is_some() { Map::load_with_tiles(&args.map)? } else { Map::load(&args.map)? };
+    let map =
+        if of_grounds.is_some() { NamedMap::load_with_tiles(&args.map)? } else { NamedMap::load(&args.map)? };
     if let Some((file, _)) = of_grounds.filter(|_| !map.has_tiles()) {
         return Err(Failure::NoGrounds { path: file.into(), map: map.name });
     }
@@ -128,7 +129,12 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
 }
 
 /// The waypoints of a path.
-fn vertices(file: &str, path: &Listed, rules: Rules, map: &Map) -> Result<Vec<mediant::Vertex>, Failure> {
+fn vertices(
+    file: &str,
+    path: &Listed,
+    rules: Rules,
+    map: &NamedMap,
+) -> Result<Vec<mediant::Vertex>, Failure> {
     match &path.waypoints {
         Waypoints::Vertices(vertices) => Ok(vertices.clone()),
         Waypoints::Places(places) => {
@@ -168,7 +174,7 @@ fn line(screen: &mut Screen, record: &impl Serialize) -> io::Result<()> {
 }
 
 /// Says what is wrong with a path.
-fn say(screen: &mut Screen, map: &Map, (file, index): (&str, usize), fault: Fault) -> io::Result<()> {
+fn say(screen: &mut Screen, map: &NamedMap, (file, index): (&str, usize), fault: Fault) -> io::Result<()> {
     write!(screen, "{}, path {index}: {fault}", printable(file))?;
     if let (Some(frame), Some((x, y))) = (map.frame, fault.cell()) {
         let (x, y) = frame.center_of((x, y).into());
@@ -178,7 +184,7 @@ fn say(screen: &mut Screen, map: &Map, (file, index): (&str, usize), fault: Faul
 }
 
 /// Says how many paths hold.
-fn summary(screen: &mut Screen, map: &Map, paths: u64, broken: u64) -> io::Result<()> {
+fn summary(screen: &mut Screen, map: &NamedMap, paths: u64, broken: u64) -> io::Result<()> {
     let name = screen.paint(BOLD, printable(&map.name)).to_string();
     match (broken, paths) {
         (0, 1) => writeln!(screen, "{name} · the path holds"),

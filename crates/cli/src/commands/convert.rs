@@ -8,7 +8,7 @@ use mediant_formats::{MapFile, Raster, RasterFormat, RosError, RosMap};
 use crate::{
     args::ConvertArgs,
     failure::Failure,
-    map::{Map, file_name},
+    map::{NamedMap, file_name},
     terminal::{
         numbers::grouped,
         screen::{BOLD, Screen},
@@ -47,7 +47,7 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
             return Err(Failure::NoRosMap { option });
         }
     }
-    let map = Map::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
+    let map = NamedMap::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
     let image = path.with_extension("pgm");
     let written = match form {
         Form::Ros => vec![path, image.as_path()],
@@ -63,7 +63,7 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
 }
 
 /// Writes the map; the picture of a ROS map has the path `image`.
-fn write(args: &ConvertArgs, form: Form, map: &Map, image: &Path) -> Result<(), Failure> {
+fn write(args: &ConvertArgs, form: Form, map: &NamedMap, image: &Path) -> Result<(), Failure> {
     let path = args.output.as_path();
     let wrong = |source: RosError| Failure::RosMap { path: path.to_owned(), source };
     match form {

@@ -17,12 +17,12 @@ use crate::{
         theme::INKS,
     },
     failure::Failure,
-    map::Map,
+    map::NamedMap,
     run::measure::Measured,
     terminal::{
         numbers::{grouped, percent_over, time},
         screen::{BOLD, DIM, Screen},
-        table::{Align, Table},
+        table::{Align, TextTable},
         text::wrap,
     },
 };
@@ -46,7 +46,7 @@ struct Row {
 }
 
 /// Solves the demo's query in one setup; `None` if there is no path.
-fn solve(setup: Setup, map: &Map, query: Query) -> Result<Option<Row>, Failure> {
+fn solve(setup: Setup, map: &NamedMap, query: Query) -> Result<Option<Row>, Failure> {
     let Setup { rules, k, .. } = setup;
     let mut planner = setup.planner(&map.to_library())?;
     // The table compares with any-angle paths between corners; no bound to these is known for paths between
@@ -62,7 +62,7 @@ fn solve(setup: Setup, map: &Map, query: Query) -> Result<Option<Row>, Failure> 
 /// Runs the command.
 pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
     let builtin = Builtin::of_name(&args.name)?;
-    let map = Map::bundled(builtin, Tiles::default())?;
+    let map = NamedMap::bundled(builtin, Tiles::default())?;
     let query = Query::new(builtin.start, builtin.goal);
     let corners = Rules::Corner(DiagonalGap::Open);
     let centers = Rules::Center(CornerRule::Never);
@@ -83,7 +83,7 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
 }
 
 /// Writes the map's name and size, and the query.
-fn title(builtin: &Builtin, map: &Map, query: Query, screen: &mut Screen) -> io::Result<()> {
+fn title(builtin: &Builtin, map: &NamedMap, query: Query, screen: &mut Screen) -> io::Result<()> {
     let name = screen.paint(BOLD, builtin.name);
     let (width, height) = (map.grid.width(), map.grid.height());
     let Query { start, goal, .. } = query;
@@ -106,7 +106,7 @@ fn k_sign(k: K) -> String {
 }
 
 /// Draws the map with some of the paths, and says which is which.
-fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+fn picture(map: &NamedMap, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     let mut canvas = Canvas::fit(&map.tiles(), map.theme, PlacementKind::Corner, screen);
     for row in rows {
         if let Some((stroke, ink)) = stroke(row) {
@@ -130,12 +130,12 @@ fn picture(map: &Map, query: Query, rows: &[Row], screen: &mut Screen) -> io::Re
 }
 
 /// Writes the table, a row for each setup.
-fn table(map: &Map, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+fn table(map: &NamedMap, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     let best = rows.iter().filter(|row| row.rules.placement() == PlacementKind::Corner).map(|row| row.cost);
     let best = best.fold(f64::INFINITY, f64::min);
     let names = ["k", "at", "moves", "cost", "over best", "bound", "turns", "expanded", "time"];
     let mut table =
-        Table::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
+        TextTable::new(names.map(|name| (name, if name == "at" { Align::Left } else { Align::Right })));
     for row in rows {
         let placement = row.rules.placement();
         let cells = [

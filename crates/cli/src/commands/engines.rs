@@ -8,7 +8,7 @@ use crate::{
     failure::Failure,
     terminal::{
         screen::Screen,
-        table::{Align, Table},
+        table::{Align, TextTable},
     },
 };
 
@@ -20,7 +20,7 @@ At centers subgoal, hpa and chpa take k = 2, and k = 3 with corners never.";
 /// Runs the command.
 pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
     let heads = ["engine", "placement", "k", "guarantee", "paper"].map(|head| (head, Align::Left));
-    let mut table = Table::new(heads);
+    let mut table = TextTable::new(heads);
     for engine in Engine::ALL {
         let Capabilities { placements, max_k, any, guarantee, paper, .. } = engine.capabilities();
         let placement = match placements {

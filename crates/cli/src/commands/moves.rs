@@ -17,7 +17,7 @@ use crate::{
     terminal::{
         numbers::{grouped, percent_over},
         screen::{BOLD, DIM, Screen},
-        table::{Align, Table},
+        table::{Align, TextTable},
     },
 };
 
@@ -71,7 +71,7 @@ fn list(quadrant: Quadrant, screen: &mut Screen) -> io::Result<()> {
     let align = |head| (head, if matches!(head, "parity" | "parents") { Align::Left } else { Align::Right });
     let len = quadrant.len();
     let left_out = len.saturating_sub(2 * SHOWN + 1);
-    let mut table = Table::new(heads.map(align));
+    let mut table = TextTable::new(heads.map(align));
     let (first, last) = if left_out == 0 { (len, len) } else { (SHOWN, len - SHOWN) };
     for index in (0..first).chain(last..len) {
         if left_out > 0 && index == last {

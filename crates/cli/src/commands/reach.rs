@@ -11,7 +11,7 @@ use mediant_formats::Picture;
 use crate::{
     args::ReachArgs,
     failure::{Ending, Failure},
-    map::Map,
+    map::NamedMap,
     run::{
         distances::{csv, furthest, rounded},
         query_error::explain,
@@ -25,7 +25,7 @@ use crate::{
     write::{check_outputs, extension, npy, write_file},
 };
 
-/// What is written to a file.
+/// The form of an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     /// CSV on stdout.
@@ -58,7 +58,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let motion = args.motion.0.motion()?;
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
-    let map = Map::load(&args.map)?.for_agent(&args.map, motion)?;
+    let map = NamedMap::load(&args.map)?.for_agent(&args.map, motion)?;
     let written: Vec<&Path> =
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
     check_outputs(&args.map.map, &written)?;
@@ -89,7 +89,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
             Form::Picture => picture(&map, motion, &field, &sources).write_to(path)?,
         }
     }
-    // Who reads the CSV from stdout has no use for a summary in it.
+    // A summary would spoil the CSV on stdout.
     if outputs.iter().all(|(_, form)| *form != Form::Printed) {
         summary(&map, motion, &field, &sources, limit, screen)?;
         if let Some(moved) = map.moved(placement, &args.from, &sources).filter(|&moved| moved > 0.0) {
@@ -100,7 +100,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
 }
 
 /// The map with the distances as colors.
-fn picture<'m>(map: &'m Map, motion: Motion, field: &Field, sources: &[Vertex]) -> Picture<'m> {
+fn picture<'m>(map: &'m NamedMap, motion: Motion, field: &Field, sources: &[Vertex]) -> Picture<'m> {
     Picture::new(&map.ground, motion.rules.placement())
         .field(|at| field.get(at))
         .starts(sources.iter().copied())
@@ -109,7 +109,7 @@ fn picture<'m>(map: &'m Map, motion: Motion, field: &Field, sources: &[Vertex]) 
 
 /// Writes how many vertices are reached, and which is the furthest.
 fn summary(
-    map: &Map,
+    map: &NamedMap,
     motion: Motion,
     field: &Field,
     sources: &[Vertex],

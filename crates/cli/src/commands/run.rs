@@ -8,9 +8,9 @@ use crate::{
     args::{Asked, Format, RunArgs},
     draw::query::{Drawing, check_name},
     failure::{Ending, Failure},
-    map::{Map, file_name},
+    map::{NamedMap, file_name},
     run::{
-        answer::Run,
+        answer::RunHead,
         distances,
         jsonl::Jsonl,
         queries::Queries,
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let trace = args.trace.as_deref().map(TraceFile);
     let Searcher { index, planner, choice, .. } = searchers.first();
     let setup = index.setup();
-    let run = Run {
+    let run = RunHead {
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
@@ -109,12 +109,12 @@ fn check_number(args: &RunArgs, queries: &Queries) -> Result<(), Failure> {
 }
 
 /// The map, with its characters if they are to be drawn, or say which ground a cell is.
-fn load(args: &RunArgs) -> Result<Map, Failure> {
+fn load(args: &RunArgs) -> Result<NamedMap, Failure> {
     let needs_tiles = args.grounds || matches!(args.draw, Some(None));
-    if needs_tiles { Map::load_with_tiles(&args.map) } else { Map::load(&args.map) }
+    if needs_tiles { NamedMap::load_with_tiles(&args.map) } else { NamedMap::load(&args.map) }
 }
 
-/// What the program says and returns after the last query.
+/// The ending after the last query, with its message and exit status.
 fn ending(queries: &Queries, finished: Finished, requires_path: bool) -> Ending {
     let Summary { queries: all, found, .. } = finished.summary;
     match (finished.first_error, queries) {

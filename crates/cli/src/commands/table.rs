@@ -13,7 +13,7 @@ use crate::{
     args::{Asked, Place, TableArgs, TableFormat, parse_place},
     check::file::{bytes, lines, shown},
     failure::{Ending, Failure},
-    map::Map,
+    map::NamedMap,
     run::{
         distances::rounded,
         query_error::explain,
@@ -22,7 +22,7 @@ use crate::{
     terminal::{
         numbers::{count, time},
         screen::{BOLD, Screen},
-        table::{Align, Table},
+        table::{Align, TextTable},
         text::printable,
     },
 };
@@ -30,7 +30,7 @@ use crate::{
 /// Runs the command.
 pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let asked = Asked::of(&args.flags.0, args.index.is_some())?;
-    let map = Map::load(&args.map)?.for_agent(&args.map, asked.motion)?;
+    let map = NamedMap::load(&args.map)?.for_agent(&args.map, asked.motion)?;
     let placement = asked.motion.rules.placement();
     let (starts, starts_moved) =
         ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
@@ -48,7 +48,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
         }
         Err(error) => return Err(error.into()),
     };
-    let report = Report {
+    let report = LengthReport {
         map: &map,
         index: &index,
         choice,
@@ -71,7 +71,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
     Ok(Ending::Answered)
 }
 
-impl Measured {
+impl MeasuredLengths {
     /// The number of pairs without a path, and of all pairs.
     fn missing(&self) -> (u64, u64) {
         match self {
@@ -87,9 +87,9 @@ impl Measured {
 }
 
 /// The starts or the goals, those that were named before those of a file, and their greatest
-/// [distance](Map::moved) from the places that were asked for.
+/// [distance](NamedMap::moved) from the places that were asked for.
 fn ends(
-    map: &Map,
+    map: &NamedMap,
     placement: PlacementKind,
     (named, file): (&[Place], Option<&Path>),
     (ends, option): (&'static str, &'static str),
@@ -110,27 +110,32 @@ fn ends(
     Ok((at, moved))
 }
 
-/// What was measured, for each start.
-enum Measured {
+/// The lengths that were measured, for each start.
+enum MeasuredLengths {
     /// The lengths to all goals; infinite where there is no way.
     All(mediant::Table),
     /// The number of the nearest goal, and the length.
     Nearest(Vec<Option<(usize, f64)>>),
 }
 
-fn measure(nearest: bool, index: &Index, starts: &[Vertex], goals: &[Vertex]) -> Result<Measured, Error> {
+fn measure(
+    nearest: bool,
+    index: &Index,
+    starts: &[Vertex],
+    goals: &[Vertex],
+) -> Result<MeasuredLengths, Error> {
     if !nearest {
-        return index.table(starts.iter().copied(), goals.iter().copied()).map(Measured::All);
+        return index.table(starts.iter().copied(), goals.iter().copied()).map(MeasuredLengths::All);
     }
     let goals = index.goals(goals.iter().copied())?;
     let mut planner = index.try_planner()?;
     let nearest = starts.iter().map(|&start| planner.nearest(start, &goals));
-    nearest.collect::<Result<_, Error>>().map(Measured::Nearest)
+    nearest.collect::<Result<_, Error>>().map(MeasuredLengths::Nearest)
 }
 
-/// What there is to report.
-struct Report<'r> {
-    map: &'r Map,
+/// A report of distances, in each format.
+struct LengthReport<'r> {
+    map: &'r NamedMap,
     index: &'r Index,
     /// The choice of `auto`.
     choice: Option<Choice>,
@@ -138,7 +143,7 @@ struct Report<'r> {
     goals: Vec<Vertex>,
     /// The greatest distances of starts and of goals from their vertices, in meters; with `--world`.
     moved: Option<[f64; 2]>,
-    measured: Measured,
+    measured: MeasuredLengths,
     preparation: Duration,
     took: Duration,
 }
@@ -195,7 +200,7 @@ struct SummaryLine {
     nanos: u64,
 }
 
-impl Report<'_> {
+impl LengthReport<'_> {
     fn jsonl(&self, screen: &mut Screen) -> io::Result<()> {
         let Self { map, index, choice, starts, goals, moved, measured, preparation, took } = self;
         let setup = index.setup();
@@ -214,10 +219,10 @@ impl Report<'_> {
         line(screen, &head)?;
         for (row, start) in starts.iter().enumerate() {
             let found = match measured {
-                Measured::All(table) => {
+                MeasuredLengths::All(table) => {
                     RowFound::All { distances: table.row(row).iter().map(|&length| finite(length)).collect() }
                 }
-                Measured::Nearest(nearest) => {
+                MeasuredLengths::Nearest(nearest) => {
                     let nearest = nearest.get(row).copied().flatten();
                     RowFound::Nearest {
                         goal: nearest.map(|(goal, _)| [goals[goal].x, goals[goal].y]),
@@ -235,14 +240,14 @@ impl Report<'_> {
         writeln!(screen, "start_x,start_y,goal_x,goal_y,distance")?;
         for (row, start) in self.starts.iter().enumerate() {
             match &self.measured {
-                Measured::All(table) => {
+                MeasuredLengths::All(table) => {
                     for (goal, &length) in self.goals.iter().zip(table.row(row)) {
                         let length =
                             finite(length).map_or_else(String::new, |length| rounded(length).to_string());
                         writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
                     }
                 }
-                Measured::Nearest(nearest) => match nearest.get(row).copied().flatten() {
+                MeasuredLengths::Nearest(nearest) => match nearest.get(row).copied().flatten() {
                     Some((goal, length)) => {
                         let (goal, length) = (self.goals[goal], rounded(length));
                         writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
@@ -258,17 +263,17 @@ impl Report<'_> {
     fn table(&self, screen: &mut Screen) -> io::Result<()> {
         self.head(screen)?;
         let (columns, heads) = match &self.measured {
-            Measured::All(_) => {
+            MeasuredLengths::All(_) => {
                 let columns = self.goals.len().min((screen.columns().saturating_sub(16) / 14).max(1));
                 let goals = self.goals[..columns].iter().map(|&goal| (vertex(goal), Align::Right));
                 (columns, [("start".to_owned(), Align::Left)].into_iter().chain(goals).collect())
             }
-            Measured::Nearest(_) => {
+            MeasuredLengths::Nearest(_) => {
                 let heads = [("start", Align::Left), ("nearest goal", Align::Left), ("length", Align::Right)];
                 (self.goals.len(), heads.map(|(head, align)| (head.to_owned(), align)).to_vec())
             }
         };
-        let mut table = Table::new::<String>(heads);
+        let mut table = TextTable::new::<String>(heads);
         for (row, &start) in self.starts.iter().enumerate().take(ROWS) {
             table.row([vertex(start)].into_iter().chain(self.cells(row, columns)).collect::<Vec<_>>());
         }
@@ -285,7 +290,7 @@ impl Report<'_> {
         writeln!(screen, "  … and {}; --format csv shows all", more.join(", "))
     }
 
-    /// What is measured, and how long that took.
+    /// Writes the map, the setup, the numbers of ends, and the times.
     fn head(&self, screen: &mut Screen) -> io::Result<()> {
         let (setup, searched_by) = (self.index.setup(), self.index.searched_by());
         let name = screen.paint(BOLD, printable(&self.map.name)).to_string();
@@ -312,15 +317,15 @@ impl Report<'_> {
         writeln!(screen)
     }
 
-    /// What the table shows of a start.
+    /// The cells of a start's row.
     fn cells(&self, row: usize, columns: usize) -> Vec<String> {
         let shown =
             |length| finite(length).map_or_else(|| "no way".to_owned(), |length| format!("{length:.4}"));
         match &self.measured {
-            Measured::All(table) => {
+            MeasuredLengths::All(table) => {
                 table.row(row).iter().take(columns).map(|&length| shown(length)).collect()
             }
-            Measured::Nearest(nearest) => match nearest.get(row).copied().flatten() {
+            MeasuredLengths::Nearest(nearest) => match nearest.get(row).copied().flatten() {
                 Some((goal, length)) => vec![vertex(self.goals[goal]), shown(length)],
                 None => vec!["no way to any".to_owned()],
             },

@@ -9,11 +9,11 @@ use mediant::{NodeEvent, Observer, Planner, Request, Setup, Vertex};
 use mediant_formats::{Picture, PictureError};
 
 use super::{braille::Stroke, picture::Canvas, theme::INKS};
-use crate::{failure::Failure, map::Map, terminal::screen::Screen, write::extension};
+use crate::{failure::Failure, map::NamedMap, terminal::screen::Screen, write::extension};
 
 /// The picture of a single query.
 pub(crate) struct Drawing<'d> {
-    pub(crate) map: &'d Map,
+    pub(crate) map: &'d NamedMap,
     pub(crate) setup: Setup,
     pub(crate) request: Request,
 }
@@ -45,7 +45,7 @@ impl Drawing<'_> {
         waypoints: &[Vertex],
     ) -> Result<(), Failure> {
         let mut searched = Searched::default();
-        // What is wrong with a query was said already.
+        // An error of the query was printed already.
         let _ = planner.find_observed(self.request.clone(), &mut searched);
         let placement = self.setup.rules.placement();
         let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);

@@ -2,7 +2,7 @@
 
 use anstyle::RgbColor as Rgb;
 
-/// What a map shows, which decides its colors.
+/// The scenery of a map, which decides its colors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Theme {
     /// Unknown: each tile has the color of its kind.

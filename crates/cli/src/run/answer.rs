@@ -1,4 +1,4 @@
-//! What there is to report of a run: what is run, and the answer of each query.
+//! The data of a report: the head of a run, and a record for each query.
 
 use std::{fmt, time::Duration};
 
@@ -8,18 +8,18 @@ use mediant::{
 };
 
 use super::{queries::Item, query_error::explain};
-use crate::{args::QueryArgs, map::Map};
+use crate::{args::QueryArgs, map::NamedMap};
 
-/// What is run: the map, the setup, and what its preparation took.
-pub(crate) struct Run<'r> {
-    pub(crate) map: &'r Map,
+/// The head of a run: the map, the setup, and the time and memory of its preparation.
+pub(crate) struct RunHead<'r> {
+    pub(crate) map: &'r NamedMap,
     /// The scenario's file name.
     pub(crate) scenario: Option<&'r str>,
     /// The number of queries.
     pub(crate) queries: usize,
     pub(crate) query: &'r QueryArgs,
     pub(crate) setup: Setup,
-    /// Which engine `auto` took, and why; `None` for one that was named.
+    /// The choice of `auto`; `None` for an engine that was named.
     pub(crate) choice: Option<Choice>,
     /// The engine that searches: the setup's, or another one where subgoals would be slow.
     pub(crate) searched_by: Engine,
@@ -40,14 +40,14 @@ pub(crate) struct Run<'r> {
 
 /// A query with its answer.
 #[derive(Clone, Debug)]
-pub(crate) struct Answer {
+pub(crate) struct QueryRecord {
     pub(crate) item: Item,
-    /// What was asked.
+    /// The query, with all ends, wishes and limits.
     pub(crate) request: Request,
     /// The engine that searched in place of the run's, because cells count otherwise for the query.
     pub(crate) searched_by: Option<Engine>,
     /// The outcome, or why the query cannot be answered.
-    pub(crate) outcome: Result<Answered, Unanswered>,
+    pub(crate) outcome: Result<QueryOutcome, Unanswered>,
     pub(crate) counters: Counters,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
@@ -64,7 +64,7 @@ pub(crate) struct Unanswered {
 
 impl Unanswered {
     /// The error of a query on a map.
-    pub(crate) fn new(error: QueryError, map: &Map, placement: PlacementKind) -> Self {
+    pub(crate) fn new(error: QueryError, map: &NamedMap, placement: PlacementKind) -> Self {
         Self { code: mediant::Error::from(error.clone()).code(), text: explain(error, map, placement) }
     }
 }
@@ -77,7 +77,7 @@ impl fmt::Display for Unanswered {
 
 /// How a query was answered.
 #[derive(Clone, Debug)]
-pub(crate) enum Answered {
+pub(crate) enum QueryOutcome {
     Found(Found),
     /// There is no path; this one leads to the nearest vertex that can be reached.
     Nearest(Path),
@@ -99,11 +99,11 @@ pub(crate) struct Found {
     pub(crate) any_angle: Option<f64>,
 }
 
-impl Answer {
+impl QueryRecord {
     /// The path that was asked for, if it was found.
     pub(crate) const fn found(&self) -> Option<&Found> {
         match &self.outcome {
-            Ok(Answered::Found(found)) => Some(found),
+            Ok(QueryOutcome::Found(found)) => Some(found),
             _ => None,
         }
     }
@@ -111,10 +111,10 @@ impl Answer {
     /// The path, if there is one: that of a stopped search is the best so far.
     pub(crate) const fn path(&self) -> Option<&Path> {
         match &self.outcome {
-            Ok(Answered::Found(found)) => found.path.as_ref(),
-            Ok(Answered::Nearest(path)) => Some(path),
-            Ok(Answered::Stopped(stopped)) => Some(&stopped.best),
-            Ok(Answered::Unreachable) | Err(_) => None,
+            Ok(QueryOutcome::Found(found)) => found.path.as_ref(),
+            Ok(QueryOutcome::Nearest(path)) => Some(path),
+            Ok(QueryOutcome::Stopped(stopped)) => Some(&stopped.best),
+            Ok(QueryOutcome::Unreachable) | Err(_) => None,
         }
     }
 

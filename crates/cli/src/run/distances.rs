@@ -11,7 +11,7 @@ use super::query_error::explain;
 use crate::{
     args::Asked,
     failure::{Ending, Failure},
-    map::{Map, file_name},
+    map::{NamedMap, file_name},
     terminal::{
         numbers::count,
         screen::{BOLD, Screen},
@@ -23,7 +23,7 @@ use crate::{
 /// Writes the distances from a vertex to a file as CSV; for the path `-`, to the screen.
 pub(crate) fn write(
     asked: &Asked,
-    map: &Map,
+    map: &NamedMap,
     from: Vertex,
     path: &Path,
     screen: &mut Screen,

@@ -17,7 +17,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    answer::{Answer, Answered, Found, Run},
+    answer::{Found, QueryOutcome, QueryRecord, RunHead},
     report::Report,
     summary::Summary,
 };
@@ -56,14 +56,14 @@ impl<'s> Jsonl<'s> {
 }
 
 impl Report for Jsonl<'_> {
-    fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
+    fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
         self.world = run.map.frame.map(|frame| (frame, run.setup.rules.placement()));
         self.only_lengths = run.query.distance;
         self.line(&RunLine::from(run))?;
         self.flush()
     }
 
-    fn query(&mut self, answer: Answer) -> io::Result<()> {
+    fn query(&mut self, answer: QueryRecord) -> io::Result<()> {
         let mut line = QueryLine::from(&answer);
         if self.only_lengths {
             line.path = None;
@@ -196,8 +196,8 @@ impl From<&QueryArgs> for WishFields {
     }
 }
 
-impl<'r> From<&Run<'r>> for RunLine<'r> {
-    fn from(run: &Run<'r>) -> Self {
+impl<'r> From<&RunHead<'r>> for RunLine<'r> {
+    fn from(run: &RunHead<'r>) -> Self {
         let setup = run.setup;
         // The key of the other placement's rule has that rule's default.
         let (corners, gap) = match setup.rules {
@@ -287,7 +287,7 @@ struct QueryLine<'a> {
     /// The engine that searched in place of the run's; only where cells count otherwise for the query.
     #[serde(skip_serializing_if = "Option::is_none")]
     searched_by: Option<&'static str>,
-    /// What stopped the search; only if the status is "stopped".
+    /// The limit that stopped the search; only if the status is "stopped".
     #[serde(skip_serializing_if = "Option::is_none")]
     stopped_by: Option<String>,
     /// Of the path; `null` without one.
@@ -330,7 +330,7 @@ struct QueryLine<'a> {
     fallbacks: u64,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     nanos: u64,
-    /// What is wrong with the query; only if the status is "error".
+    /// The error of the query; only if the status is "error".
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<&'a str>,
     /// The library's code of the error.
@@ -338,14 +338,14 @@ struct QueryLine<'a> {
     code: Option<&'static str>,
 }
 
-impl<'a> From<&'a Answer> for QueryLine<'a> {
-    fn from(answer: &'a Answer) -> Self {
-        let Answer { item, request, searched_by, outcome, counters, nanos } = answer;
+impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
+    fn from(answer: &'a QueryRecord) -> Self {
+        let QueryRecord { item, request, searched_by, outcome, counters, nanos } = answer;
         let (found, path) = (answer.found(), answer.path());
         let (start, goal) = answer.ends();
         let has_wishes = request.as_query().is_none();
         let stopped = match outcome {
-            Ok(Answered::Stopped(stopped)) => Some(stopped),
+            Ok(QueryOutcome::Stopped(stopped)) => Some(stopped),
             _ => None,
         };
         Self {
@@ -356,10 +356,10 @@ impl<'a> From<&'a Answer> for QueryLine<'a> {
             goals: has_wishes.then(|| pairs(request.goals())),
             searched_by: searched_by.map(Engine::name),
             status: match outcome {
-                Ok(Answered::Found(_)) => Status::Found,
-                Ok(Answered::Nearest(_)) => Status::Nearest,
-                Ok(Answered::Unreachable) => Status::Unreachable,
-                Ok(Answered::Stopped(_)) => Status::Stopped,
+                Ok(QueryOutcome::Found(_)) => Status::Found,
+                Ok(QueryOutcome::Nearest(_)) => Status::Nearest,
+                Ok(QueryOutcome::Unreachable) => Status::Unreachable,
+                Ok(QueryOutcome::Stopped(_)) => Status::Stopped,
                 Err(_) => Status::Error,
             },
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),

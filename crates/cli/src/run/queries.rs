@@ -10,7 +10,7 @@ use crate::{
     builtin::is_builtin,
     check::file::{bytes, lines, shown},
     failure::Failure,
-    map::{Map, file_name, load_scenario},
+    map::{NamedMap, file_name, load_scenario},
     terminal::message::say_warning,
 };
 
@@ -37,7 +37,7 @@ impl Queries {
     pub(crate) fn load(
         args: &RunArgs,
         wishes: &QueryArgs,
-        map: &Map,
+        map: &NamedMap,
         placement: PlacementKind,
     ) -> Result<Self, Failure> {
         let every = args.every.map_or(1, usize::from);
@@ -104,7 +104,7 @@ impl Queries {
 }
 
 /// Reads a CSV of pairs: a line `x1,y1,x2,y2` for each query.
-fn read_pairs(path: &Path, map: &Map, placement: PlacementKind) -> Result<Vec<Query>, Failure> {
+fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<Vec<Query>, Failure> {
     let bytes = bytes(path)?;
     let mut pairs = Vec::new();
     for (index, (line, text)) in lines(&bytes).enumerate() {
@@ -124,7 +124,7 @@ fn read_pairs(path: &Path, map: &Map, placement: PlacementKind) -> Result<Vec<Qu
 /// Checks that a scenario is for this map. Maps of equal size differ by their names, but a renamed map is
 /// still the same map. So if the names differ, the queries decide: they start and end on free cells of their
 /// map. (Some of the set wc3maps512 do not; its maps must keep their names.)
-fn check_names(instances: &[Instance], map: &Map) -> Result<(), Failure> {
+fn check_names(instances: &[Instance], map: &NamedMap) -> Result<(), Failure> {
     let Some(named) = instances.iter().find(|instance| instance.map_file_name() != map.name) else {
         return Ok(());
     };

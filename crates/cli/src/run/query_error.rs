@@ -3,11 +3,11 @@
 use mediant::{Grid, PlacementKind, QueryError, Vertex};
 
 use super::distances::rounded;
-use crate::map::Map;
+use crate::map::NamedMap;
 
 /// A query error in words; for a blocked end they name the nearest free vertex, and the radius if that is the
 /// reason. Under `--world` they say it in meters, too.
-pub(crate) fn explain(error: QueryError, map: &Map, placement: PlacementKind) -> String {
+pub(crate) fn explain(error: QueryError, map: &NamedMap, placement: PlacementKind) -> String {
     let QueryError::Blocked { end, at } = error else { return error.to_string() };
     let reason = if map.radius > 0.0 && placement.is_free(&map.ground, at) {
         let meters = map.frame.map(|frame| rounded(map.radius * frame.resolution()));

@@ -1,22 +1,22 @@
-//! What both forms of a report have in common.
+//! The trait of both forms of a report, and the phrases that they share.
 
 use std::io;
 
 use mediant::{Choice, Engine, FiniteK, K, Motion};
 
 use super::{
-    answer::{Answer, Run},
+    answer::{QueryRecord, RunHead},
     summary::Summary,
 };
 use crate::terminal::numbers::grouped;
 
 /// Reports a run: first the run, then its queries in order, last their summary.
 pub(crate) trait Report {
-    /// Reports what is run.
-    fn begin(&mut self, run: &Run<'_>) -> io::Result<()>;
+    /// Reports the head of the run.
+    fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()>;
 
     /// Reports a query and its answer.
-    fn query(&mut self, answer: Answer) -> io::Result<()>;
+    fn query(&mut self, answer: QueryRecord) -> io::Result<()>;
 
     /// Reports the summary.
     fn end(&mut self, summary: &Summary) -> io::Result<()>;
@@ -27,7 +27,7 @@ pub(crate) fn falls_back(engine: Engine, searched_by: Engine) -> String {
     format!("{engine} falls back to {searched_by}: on this map its graph would be slower than no index")
 }
 
-/// Which engine `auto` took, and why.
+/// The choice of `auto`, in words.
 pub(crate) fn by_auto(choice: Choice) -> String {
     format!("auto took {}: {}", choice.engine, choice.why)
 }

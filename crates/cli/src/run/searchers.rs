@@ -9,14 +9,14 @@ use super::queries::Queries;
 use crate::{
     args::{Asked, RunArgs},
     failure::Failure,
-    map::Map,
+    map::NamedMap,
 };
 
 /// A map with what answers queries on it.
 pub(crate) struct Searcher {
     /// The ground that is free on it; `None` without `--grounds`.
     ground: Option<Ground>,
-    pub(crate) map: Map,
+    pub(crate) map: NamedMap,
     space: Space,
     pub(crate) index: Index,
     /// Why its engine is this one, if that was left open.
@@ -31,7 +31,7 @@ pub(crate) struct Searchers {
     first: Searcher,
     others: Vec<Searcher>,
     /// The map whose tiles say which ground a vertex is on.
-    map: Map,
+    map: NamedMap,
     placement: PlacementKind,
     /// The time to prepare the search spaces, and to prepare or load the indexes.
     pub(crate) preparation: Duration,
@@ -43,7 +43,7 @@ impl Searchers {
         args: &RunArgs,
         asked: &Asked,
         reference: Option<Setup>,
-        map: &Map,
+        map: &NamedMap,
         queries: &Queries,
     ) -> Result<Self, Failure> {
         let placement = asked.motion.rules.placement();

@@ -3,7 +3,7 @@
 use mediant::{Outcome, Path, Planner, Query, Vertex};
 
 use super::{
-    answer::{Answer, Answered, Found, Run, Unanswered, ends},
+    answer::{Found, QueryOutcome, QueryRecord, RunHead, Unanswered, ends},
     measure::Measured,
     queries::{Item, Queries},
     report::Report,
@@ -36,7 +36,7 @@ impl Session<'_> {
     pub(crate) fn answer_all(
         mut self,
         searchers: &mut Searchers,
-        run: &Run<'_>,
+        run: &RunHead<'_>,
     ) -> Result<Finished, Failure> {
         self.report.begin(run)?;
         let mut tally = Tally::new(&run.query.wishes);
@@ -59,7 +59,12 @@ impl Session<'_> {
     }
 
     /// Answers one query.
-    fn answer(&mut self, searcher: &mut Searcher, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
+    fn answer(
+        &mut self,
+        searcher: &mut Searcher,
+        run: &RunHead<'_>,
+        item: Item,
+    ) -> Result<QueryRecord, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
         let (grid, rules) = (&*map.grid, run.setup.rules);
         let request = || run.query.request(item.query);
@@ -71,12 +76,12 @@ impl Session<'_> {
                     let Query { start, goal, .. } = item.query;
                     let (straight, any_angle) = (start.distance(goal), shortest(any_angle, (start, goal)));
                     let found = Found::measured(cost, straight, run.guarantee, rules, any_angle);
-                    Ok(Answered::Found(found))
+                    Ok(QueryOutcome::Found(found))
                 }
-                Ok(None) => Ok(Answered::Unreachable),
+                Ok(None) => Ok(QueryOutcome::Unreachable),
                 Err(error) => Err(Unanswered::new(error, map, rules.placement())),
             };
-            return Ok(Answer { item, request: request(), searched_by: None, outcome, counters, nanos });
+            return Ok(QueryRecord { item, request: request(), searched_by: None, outcome, counters, nanos });
         }
         let exceptions = run.query.exceptions();
         let mut other = match &exceptions {
@@ -92,14 +97,14 @@ impl Session<'_> {
         let outcome = match outcome {
             Ok(Outcome::Found(path)) => {
                 let any_angle = ends(&path).and_then(|ends| shortest(any_angle, ends));
-                Ok(Answered::Found(Found::new(path, run.guarantee, rules, any_angle)))
+                Ok(QueryOutcome::Found(Found::new(path, run.guarantee, rules, any_angle)))
             }
-            Ok(Outcome::Nearest(path)) => Ok(Answered::Nearest(path)),
-            Ok(Outcome::Stopped(stopped)) => Ok(Answered::Stopped(stopped)),
-            Ok(_) => Ok(Answered::Unreachable),
+            Ok(Outcome::Nearest(path)) => Ok(QueryOutcome::Nearest(path)),
+            Ok(Outcome::Stopped(stopped)) => Ok(QueryOutcome::Stopped(stopped)),
+            Ok(_) => Ok(QueryOutcome::Unreachable),
             Err(error) => Err(Unanswered::new(error, map, rules.placement())),
         };
-        Ok(Answer { item, request: request(), searched_by, outcome, counters, nanos })
+        Ok(QueryRecord { item, request: request(), searched_by, outcome, counters, nanos })
     }
 }
 

@@ -4,7 +4,7 @@ use mediant::{Path, call::Wishes};
 use mediant_formats::scenario_tolerance;
 use serde::Serialize;
 
-use super::answer::{Answer, Answered, Found};
+use super::answer::{Found, QueryOutcome, QueryRecord};
 
 /// The sums and means of a run: times and counts of the answered queries, costs of those whose path was
 /// found.
@@ -107,17 +107,17 @@ impl Tally {
     }
 
     /// Adds an answer.
-    pub(crate) fn add(&mut self, answer: &Answer) {
+    pub(crate) fn add(&mut self, answer: &QueryRecord) {
         let found = answer.found();
         match &answer.outcome {
             Err(_) => {
                 self.errors += 1;
                 return;
             }
-            Ok(Answered::Found(_)) => self.found += 1,
-            Ok(Answered::Unreachable) => self.unreachable += 1,
-            Ok(Answered::Nearest(_)) => *self.nearest.get_or_insert(0) += 1,
-            Ok(Answered::Stopped(_)) => *self.stopped.get_or_insert(0) += 1,
+            Ok(QueryOutcome::Found(_)) => self.found += 1,
+            Ok(QueryOutcome::Unreachable) => self.unreachable += 1,
+            Ok(QueryOutcome::Nearest(_)) => *self.nearest.get_or_insert(0) += 1,
+            Ok(QueryOutcome::Stopped(_)) => *self.stopped.get_or_insert(0) += 1,
         }
         let (index, counters) = (answer.item.index, &answer.counters);
         self.nanos.push(answer.nanos);
@@ -191,9 +191,9 @@ impl Tally {
 }
 
 /// Whether an answer is one to the scenario's own query: a path between its ends, or that there is none.
-fn is_comparable(answer: &Answer) -> bool {
+fn is_comparable(answer: &QueryRecord) -> bool {
     let query = answer.item.query;
-    matches!(answer.outcome, Ok(Answered::Found(_) | Answered::Unreachable))
+    matches!(answer.outcome, Ok(QueryOutcome::Found(_) | QueryOutcome::Unreachable))
         && answer.ends() == (query.start, query.goal)
 }
 
@@ -241,12 +241,12 @@ mod tests {
     use crate::run::queries::Item;
 
     /// The answer with a path of this length, right and then down; without one for `None`.
-    fn answer(index: usize, cost: Option<i32>, reference: f64, nanos: u64) -> Answer {
+    fn answer(index: usize, cost: Option<i32>, reference: f64, nanos: u64) -> QueryRecord {
         let ends = Query::new((0, 0), (cost.unwrap_or(1) - 1, 1));
-        let outcome = cost.map_or(Answered::Unreachable, |cost| {
+        let outcome = cost.map_or(QueryOutcome::Unreachable, |cost| {
             let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
             let cost = path.cost();
-            Answered::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
+            QueryOutcome::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
         });
         let counters = Counters {
             expanded: 10,
@@ -257,7 +257,7 @@ mod tests {
             fallbacks: 60,
         };
         let item = Item { index, query: ends, reference: Some(reference) };
-        Answer { item, request: ends.into(), searched_by: None, outcome: Ok(outcome), counters, nanos }
+        QueryRecord { item, request: ends.into(), searched_by: None, outcome: Ok(outcome), counters, nanos }
     }
 
     #[test]
@@ -267,7 +267,7 @@ mod tests {
         tally.add(&answer(1, Some(9), 10.0, 1));
         tally.add(&answer(2, None, 0.0, 3));
         tally.add(&answer(3, Some(30_000), 30_000.2, 100));
-        tally.add(&Answer {
+        tally.add(&QueryRecord {
             outcome: Err(crate::run::answer::Unanswered {
                 text: "an end is blocked".to_owned(),
                 code: mediant::ErrorCode::GoalBlocked,
@@ -291,7 +291,7 @@ mod tests {
         assert_eq!((tally.bound.finish(), tally.ratio.finish()), (None, None));
         let with = |index, lower_bound, any_angle| {
             let mut answer = answer(index, Some(3), 3.0, 1);
-            if let Ok(Answered::Found(found)) = &mut answer.outcome {
+            if let Ok(QueryOutcome::Found(found)) = &mut answer.outcome {
                 (found.lower_bound, found.any_angle) = (lower_bound, any_angle);
             }
             answer

@@ -5,14 +5,14 @@ use std::io::{self, Write};
 use mediant::{Engine, Limit, OptionValue, Path, PlacementKind, Stopped, Vertex, files::WorldFrame};
 
 use super::{
-    answer::{Answer, Answered, Found, Run},
+    answer::{Found, QueryOutcome, QueryRecord, RunHead},
     report::{Report, by_auto, falls_back, k_in_words},
     summary::{Ratios, References, Summary},
 };
 use crate::terminal::{
     numbers::{count, excess, grouped, percent_over, time},
     screen::{BOLD, Screen},
-    table::{Align, Table},
+    table::{Align, TextTable},
     text::{printable, wrap},
 };
 
@@ -36,7 +36,7 @@ pub(crate) struct TableReport<'s> {
     world: Option<(WorldFrame, PlacementKind)>,
     /// The distance by which the ends were moved to vertices, in meters.
     moved: Option<[f64; 2]>,
-    rows: Vec<Answer>,
+    rows: Vec<QueryRecord>,
     /// The number of errors that have no row.
     more_errors: u64,
 }
@@ -83,14 +83,17 @@ impl<'s> TableReport<'s> {
             heads.push(("waypoints", Align::Right));
         }
         heads.extend([("expanded", Align::Right), ("time", Align::Right)]);
-        let mut table =
-            Table::new(if few { heads } else { vec![heads[0], heads[1], heads[2], ("error", Align::Left)] });
+        let mut table = TextTable::new(if few {
+            heads
+        } else {
+            vec![heads[0], heads[1], heads[2], ("error", Align::Left)]
+        });
         for row in &self.rows {
             table.row(if few { self.answer_cells(row) } else { error_cells(row) });
         }
         table.write(self.screen)?;
         let mut gap = "\n";
-        // What is wrong with a single query, stderr says.
+        // The error of a single query goes to stderr.
         for row in self.rows.iter().filter(|_| few && self.queries > 1) {
             if let Err(error) = &row.outcome {
                 writeln!(self.screen, "{gap}  {}: {error}", row.item.index)?;
@@ -108,15 +111,15 @@ impl<'s> TableReport<'s> {
     }
 
     /// The row of a query, if all have rows.
-    fn answer_cells(&self, row: &Answer) -> Vec<String> {
+    fn answer_cells(&self, row: &QueryRecord) -> Vec<String> {
         let (start, goal) = row.ends();
         let mut cells = vec![row.item.index.to_string(), vertex(start), vertex(goal)];
         let (answer, cost) = match &row.outcome {
             Err(_) => ("error", None),
-            Ok(Answered::Unreachable) => ("unreachable", None),
-            Ok(Answered::Found(Found { cost, .. })) => ("found", Some(format!("{cost:.4}"))),
-            Ok(Answered::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
-            Ok(Answered::Stopped(Stopped { lower_bound, .. })) => {
+            Ok(QueryOutcome::Unreachable) => ("unreachable", None),
+            Ok(QueryOutcome::Found(Found { cost, .. })) => ("found", Some(format!("{cost:.4}"))),
+            Ok(QueryOutcome::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
+            Ok(QueryOutcome::Stopped(Stopped { lower_bound, .. })) => {
                 ("stopped", Some(format!("≥ {lower_bound:.4}")))
             }
         };
@@ -168,15 +171,15 @@ impl<'s> TableReport<'s> {
             }
         }
         match &row.outcome {
-            Ok(Answered::Found(found)) => certificate(self.screen, found, self.any_angle),
-            Ok(Answered::Nearest(_)) => {
+            Ok(QueryOutcome::Found(found)) => certificate(self.screen, found, self.any_angle),
+            Ok(QueryOutcome::Nearest(_)) => {
                 writeln!(
                     self.screen,
                     "  no way leads to the goal: the path ends at the nearest reachable vertex"
                 )
             }
-            Ok(Answered::Stopped(stopped)) => stop(self.screen, stopped),
-            Ok(Answered::Unreachable) | Err(_) => Ok(()),
+            Ok(QueryOutcome::Stopped(stopped)) => stop(self.screen, stopped),
+            Ok(QueryOutcome::Unreachable) | Err(_) => Ok(()),
         }
     }
 
@@ -214,7 +217,7 @@ impl<'s> TableReport<'s> {
 }
 
 impl Report for TableReport<'_> {
-    fn begin(&mut self, run: &Run<'_>) -> io::Result<()> {
+    fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
         let setup = run.setup;
         self.queries = run.queries;
         self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
@@ -265,7 +268,7 @@ impl Report for TableReport<'_> {
         writeln!(self.screen)
     }
 
-    fn query(&mut self, answer: Answer) -> io::Result<()> {
+    fn query(&mut self, answer: QueryRecord) -> io::Result<()> {
         let is_error = answer.outcome.is_err();
         if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
             self.rows.push(answer);
@@ -344,7 +347,7 @@ fn mean_count(mean: f64) -> String {
 }
 
 /// The engine's options in words. A second heuristic that is the same as the first is left out.
-fn options(run: &Run<'_>) -> impl Iterator<Item = String> {
+fn options(run: &RunHead<'_>) -> impl Iterator<Item = String> {
     let mut heuristics = Vec::new();
     run.options.iter().filter_map(move |&(option, value)| {
         let value = value?;
@@ -364,7 +367,7 @@ fn vertex(at: Vertex) -> String {
 }
 
 /// The row of a query that could not be answered, if only those have rows.
-fn error_cells(row: &Answer) -> Vec<String> {
+fn error_cells(row: &QueryRecord) -> Vec<String> {
     let error = row.outcome.as_ref().err().map(|error| error.text.clone()).unwrap_or_default();
     vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
 }

@@ -25,12 +25,12 @@ struct Row {
 }
 
 /// A table whose columns are as wide as their widest cell.
-pub(crate) struct Table {
+pub(crate) struct TextTable {
     heads: Vec<(Cow<'static, str>, Align)>,
     rows: Vec<Row>,
 }
 
-impl Table {
+impl TextTable {
     /// A table with these heads and no rows.
     pub(crate) fn new<H: Into<Cow<'static, str>>>(heads: impl IntoIterator<Item = (H, Align)>) -> Self {
         let heads = heads.into_iter().map(|(head, align)| (head.into(), align)).collect();

@@ -16,7 +16,7 @@ fn straight(query: &Value) -> f64 {
     x.zip(y).map(|(x, y)| x.hypot(y)).expect("coordinates")
 }
 
-/// What rounding may add to a ratio.
+/// The most by which rounding may raise a ratio, as a factor.
 const SLACK: f64 = 1.0 + 1e-9;
 
 #[test]

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{Files, Ran, built, check_mismatch, redact_times, refused, run, told};
 
-/// What a saved index must not change of the answers.
+/// Status, cost, path and counts of each query: the same with a saved index.
 fn answers(queries: &[Value]) -> Vec<[Value; 5]> {
     let keys = ["status", "cost", "path", "expanded", "fallbacks"];
     queries.iter().map(|query| keys.map(|key| query[key].clone())).collect()
@@ -151,7 +151,7 @@ fn a_saved_index_gives_the_same_answers() {
     }
     let line = format!("build builtin:cave --engine chpa -o {}", files.path("cave.idx"));
     let text = redact_times(&run(&line).stdout);
-    // What the index is for, the side, a byte for each of 24 × 12 segments, a checksum.
+    // The key of the index, the side, a byte for each of 24 × 12 segments, a checksum.
     assert_eq!(text, "cave.idx · chpa of cave.map · 428 bytes · built in TIME\n");
 }
 

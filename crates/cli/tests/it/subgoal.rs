@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::common::{Files, Ran, built, check_mismatch, mediant, redact_times, refused, run, told};
 
-/// What a saved index must not change of the answers.
+/// Status, cost and path of each query: the same with a saved index.
 fn answers(queries: &[Value]) -> Vec<[Value; 3]> {
     queries.iter().map(|query| ["status", "cost", "path"].map(|key| query[key].clone())).collect()
 }

@@ -192,7 +192,7 @@ fn wishes_hold_for_each_query_of_a_scenario() {
     assert!((1..32).contains(&found), "both kinds are there");
     let counts = ["queries", "found", "nearest", "unreachable", "stopped", "errors"];
     assert_eq!(counts.map(|key| summary[key].as_u64()), [32, found, 0, 0, 32 - found, 0].map(Some));
-    // What was stopped is not compared with the scenario.
+    // Stopped queries are not compared with the scenario.
     assert_eq!([&summary["reference"]["compared"], &summary["reference"]["equal"]], [found, found]);
     let mean = queries.iter().filter(|query| query["status"] == "found").map(|query| number(query, "cost"));
     assert_close(number(&summary, "mean_cost"), mean.sum::<f64>() / found as f64);

@@ -101,7 +101,7 @@ impl CallError {
     }
 }
 
-/// What is wrong with a value, before it is known whose value it is.
+/// The error of a value, before its parameter is known.
 #[derive(Debug)]
 pub(super) enum Wrong {
     Type { expected: String, found: String },

@@ -119,7 +119,7 @@ impl Call {
         Ok(self.k.or(self.neighbors))
     }
 
-    /// How the agent moves. What was left out, the engine decides, if it takes only that: k = 3 between
+    /// How the agent moves. Parameters that were left out have the engine's defaults: k = 3 between
     /// centers under `never`, but any angle between corners for [`Engine::Anya`].
     ///
     /// # Errors
@@ -133,7 +133,7 @@ impl Call {
     /// How the agent moves, where what was left out is as usual.
     ///
     /// # Errors
-    /// Those of [`motion`](Self::motion).
+    /// As for [`motion`](Self::motion).
     pub fn motion_from(&self, usual: Motion) -> Result<Motion, CallError> {
         let together = |meaning, why| Err(CallError::Together { parameter: Parameter::of(meaning), why });
         let rules = match (self.placement, self.corners, self.gap) {
@@ -158,7 +158,7 @@ impl Call {
     /// and the options.
     ///
     /// # Errors
-    /// Those of [`motion`](Self::motion), and [`SetupError`].
+    /// As for [`motion`](Self::motion), and [`SetupError`].
     pub fn check(&self) -> Result<(), CallError> {
         let motion = self.motion()?;
         if let Some(engine) = self.engine {
@@ -218,7 +218,7 @@ impl Call {
         !self.options.is_empty() || self.smoothing.is_some()
     }
 
-    /// What is asked of a path beyond its ends.
+    /// The wishes beyond the ends of a path.
     #[must_use]
     pub const fn wishes(&self) -> &Wishes {
         &self.wishes

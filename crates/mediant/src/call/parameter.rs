@@ -48,7 +48,7 @@ impl Spelling {
 pub enum Group {
     /// How the agent moves.
     Motion,
-    /// What is asked of a path beyond its ends.
+    /// Wishes beyond the ends of a path.
     Wishes,
     /// The engine.
     Engine,
@@ -61,7 +61,7 @@ impl Group {
     pub const ALL: [Self; 4] = [Self::Motion, Self::Wishes, Self::Engine, Self::Options];
 }
 
-/// What a parameter takes, for the types of a language.
+/// The kinds of value that parameters take, for the types of a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -98,18 +98,18 @@ pub struct Parameter {
     pub name: &'static str,
     /// The group that it belongs to.
     pub group: Group,
-    /// What it takes.
+    /// The kind of its value.
     pub kind: Kind,
     /// The unit of its number, if it has one.
     pub unit: Option<Unit>,
-    /// What it is by default, in words, if that is one value.
+    /// Its default, in words, if that is one value.
     pub default: Option<&'static str>,
-    /// What it does, in one to three sentences.
+    /// Its effect, in one to three sentences.
     pub help: &'static str,
     pub(super) meaning: Meaning,
 }
 
-/// What a [`Call`](super::Call) does with a value.
+/// The part of a [`Call`](super::Call) that a parameter sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Meaning {
     K,

@@ -66,7 +66,7 @@ impl fmt::Display for Value<'_> {
     }
 }
 
-/// What every k is.
+/// The form of a k, for errors.
 const A_K: &str = "an integer of 2 or more, or 'any'";
 
 impl Value<'_> {

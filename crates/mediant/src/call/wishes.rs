@@ -1,11 +1,12 @@
-//! What is asked of a path beyond its ends.
+//! Wishes beyond the ends of a path.
 
 use mediant_grid::Vertex;
 use mediant_search::{Limits as SearchLimits, Query, Request};
 
 use crate::limits::Limits;
 
-/// What is asked of a path beyond its ends. By default nothing is.
+/// Wishes beyond the ends of a path: nearest vertex, tolerance, moved ends, limits. By default there are
+/// none.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Wishes {

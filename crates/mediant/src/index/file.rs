@@ -58,7 +58,7 @@ impl Map {
     /// rules and k it is for.
     ///
     /// # Errors
-    /// Those of [`Space::load`].
+    /// As for [`Space::load`].
     pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
         self.load_index(path.as_ref(), &NEVER)
     }
@@ -72,7 +72,7 @@ impl Map {
     /// file.
     ///
     /// # Errors
-    /// Those of [`Space::index_from_bytes`].
+    /// As for [`Space::index_from_bytes`].
     pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
         self.read_index(bytes, &NEVER)
     }
@@ -113,7 +113,7 @@ impl Space {
     /// [`load`](Self::load) for an engine with options.
     ///
     /// # Errors
-    /// Those of [`load`](Self::load) and of [`Index::with_options`]; also for the index of another engine.
+    /// As for [`load`](Self::load) and [`Index::with_options`]; also for the index of another engine.
     pub fn load_for(
         &self,
         engine: impl Into<ConfiguredEngine>,
@@ -163,7 +163,7 @@ fn names_of_indexed() -> String {
     Engine::names_where(|engine| engine.capabilities().index.is_some())
 }
 
-/// What the index of an engine in a space is for.
+/// The key of an engine's saved index: engine, version, map, rules and k.
 fn key(engine: Engine, space: &Space) -> Result<IndexKey, Error> {
     let version = engine.capabilities().index.ok_or_else(|| SetupError::without_index(engine))?;
     Ok(IndexKey::new(engine.name(), version, space.identity())?)

@@ -1,4 +1,4 @@
-//! What an engine prepares of a space.
+//! Indexes: the parts that an engine prepares in a space.
 
 mod file;
 mod hierarchies;
@@ -35,7 +35,7 @@ use crate::{
     within::NEVER,
 };
 
-/// What an engine prepares in a space before the first query: nothing, a pruning rule, a jump table, dead
+/// An engine's preparation in a space, before the first query: nothing, a pruning rule, a jump table, dead
 /// ends, hub labels, a subgoal graph, clusters or segments. It never changes; all threads can share it, and
 /// clones do. [`planner`](Self::planner) makes the planners on it.
 ///
@@ -55,7 +55,7 @@ pub struct Index {
     space: Space,
     setup: Setup,
     origin: Origin,
-    /// What is searched, and what is prepared for it.
+    /// The search space, with the parts prepared on it.
     pub(crate) prepared: Prepared,
     /// The engine that searches in place of the setup's, which kept nothing.
     substitute: Option<Engine>,
@@ -106,7 +106,7 @@ impl Space {
     /// ```
     ///
     /// # Errors
-    /// Those of [`prepare`](Self::prepare).
+    /// As for [`prepare`](Self::prepare).
     pub fn prepare_for_one_path(&self, engine: impl Into<ConfiguredEngine>) -> Result<Index, Error> {
         let source = Source { for_one_path: true, ..Source::new(&|_| {}) };
         Index::from_source(self, engine.into(), source)
@@ -116,7 +116,7 @@ impl Space {
     /// progress.
     ///
     /// # Errors
-    /// Those of [`prepare`](Self::prepare).
+    /// As for [`prepare`](Self::prepare).
     pub fn prepare_with_progress(
         &self,
         engine: impl Into<ConfiguredEngine>,
@@ -177,7 +177,7 @@ impl Index {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Map::space`](crate::Map::space) and [`Space::prepare`].
+    /// As for [`Map::space`](crate::Map::space) and [`Space::prepare`].
     pub fn for_k(&self, k: K) -> Result<Self, Error> {
         self.prepared_for_k(k, &NEVER)
     }
@@ -216,7 +216,7 @@ impl Index {
     /// The same index with the options and the smoothing of a call.
     ///
     /// # Errors
-    /// Those of [`with_options`](Self::with_options).
+    /// As for [`with_options`](Self::with_options).
     pub fn with_call(&self, call: &Call) -> Result<Self, Error> {
         let engine = call.configured(self.setup.engine.kind())?;
         Ok(self.clone().with_options(engine)?.with_smoothing(call.smoothing()))
@@ -237,7 +237,7 @@ impl Index {
         &self.space
     }
 
-    /// What it belongs to: its map, rules and k.
+    /// The identity: its map, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
         self.space.identity()
@@ -293,7 +293,7 @@ impl Index {
     }
 }
 
-/// What a setup's engine prepares of a space; `None` if subgoals kept nothing.
+/// Prepares the parts of a setup's engine in a space; `None` if subgoals kept nothing.
 fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Prepared>, Error> {
     Ok(Some(match space.placed() {
         Placed::Centers(layers) => match setup.engine {

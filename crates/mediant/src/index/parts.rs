@@ -19,7 +19,7 @@ use crate::{
     setup_error::SetupError,
 };
 
-/// What an engine searches, with what is prepared for it.
+/// The search space of an engine, with the parts prepared on it.
 #[derive(Clone, Debug)]
 pub(crate) enum Prepared {
     /// N(k) on the centers of cells.
@@ -32,7 +32,7 @@ pub(crate) enum Prepared {
     FreeCorners(Arc<FreeSpace<Corners>>, InFreeSpace<Corners>),
 }
 
-/// What an engine prepares of a grid graph.
+/// The parts that an engine prepares on a grid graph.
 #[derive(Clone, Debug)]
 pub(crate) enum OnGridGraph<P: SubgoalPlacement> {
     /// Nothing: the engine searches the graph as it is.
@@ -41,7 +41,7 @@ pub(crate) enum OnGridGraph<P: SubgoalPlacement> {
     Pruning(Arc<Pruning<P>>),
     /// A pruning rule, and the map in words for jumps by blocks.
     Blocks(Arc<Pruning<P>>, BlockFinder),
-    /// A pruning rule, and the length of every jump.
+    /// A pruning rule, and the jump points in lists.
     Table(Arc<Pruning<P>>, Arc<JumpTable>),
     /// Clusters; only at centers.
     Clusters(Arc<ClusterGraph>),
@@ -49,7 +49,7 @@ pub(crate) enum OnGridGraph<P: SubgoalPlacement> {
     Segments(Arc<SegmentGraph>),
 }
 
-/// What an engine prepares of a free space.
+/// The parts that an engine prepares in a free space.
 #[derive(Clone, Debug)]
 pub(crate) enum InFreeSpace<P: SubgoalPlacement> {
     /// Nothing: the engine searches the space as it is.

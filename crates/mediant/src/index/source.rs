@@ -6,12 +6,13 @@ use mediant_subgoal::Progress;
 use super::parts::Prepared;
 use crate::within::NEVER;
 
-/// What an index is made from, besides the setup and the space.
+/// The bytes or the other index that an index is made from, besides setup and space, with its progress and
+/// interrupt.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
     /// The bytes of a saved index; `None` to prepare a new one.
     pub(crate) bytes: Option<&'a [u8]>,
-    /// What is prepared for another k of the same map and rules, to share what does not depend on k.
+    /// The parts for another k of the same map and rules; those that do not depend on k are shared.
     pub(crate) beside: Option<&'a Prepared>,
     /// Whether it is for a single path: what takes longer than it saves one is left out.
     pub(crate) for_one_path: bool,

@@ -1,16 +1,17 @@
-//! What is known of each option, wherever it is written or read.
+//! One description of each option, for every place that writes or reads it.
 
 use super::value::{OptionValue, ValueKind};
 
 /// An option that some engines take: its name, its texts and the kind of its value.
 ///
-/// Which engines take it, [`ConfiguredEngine::options`](crate::ConfiguredEngine::options) says.
+/// [`ConfiguredEngine::options`](crate::ConfiguredEngine::options) lists the options of an engine.
 ///
 /// ```
 /// use mediant::{ConfiguredEngine, Engine, EngineOption, Setup};
 ///
-/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit").ok_or("no such
-/// option")?; let mut engine = ConfiguredEngine::from(Engine::Jps);
+/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit");
+/// let limit = limit.ok_or("no such option")?;
+/// let mut engine = ConfiguredEngine::from(Engine::Jps);
 /// engine.set(limit, limit.parse("16")?)?;
 /// assert_eq!("jps,limit=16".parse::<Setup>()?.engine, engine);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -19,7 +20,7 @@ use super::value::{OptionValue, ValueKind};
 pub struct EngineOption {
     /// Its name: that of the program's flag, as `jump-limit`, and with `_` for `-` of the key in its records.
     pub name: &'static str,
-    /// What an error calls it: `jps-plus takes no jump limit`.
+    /// Its noun in errors: `jps-plus takes no jump limit`.
     noun: &'static str,
     /// The kind of its value.
     pub kind: ValueKind,
@@ -28,9 +29,9 @@ pub struct EngineOption {
     key: Option<&'static str>,
     /// Whether it decides what an index holds.
     pub is_index_option: bool,
-    /// What it does, in a sentence.
+    /// Its effect, in a sentence.
     pub help: &'static str,
-    /// What a report says of it, with `{}` in place of the value.
+    /// Its phrase in reports, with `{}` in place of the value.
     phrase: &'static str,
     /// Values that the test suites try, as text.
     samples: &'static [&'static str],
@@ -49,7 +50,7 @@ pub(crate) static HEURISTIC: EngineOption = EngineOption {
     samples: &["euclidean", "zero", "squared"],
 };
 
-/// Which variant of an engine.
+/// The variant of an engine.
 pub(crate) static VARIANT: EngineOption = EngineOption {
     name: "variant",
     noun: "variant",
@@ -211,7 +212,7 @@ impl EngineOption {
     /// Reads a value. That of a flag is the empty text.
     ///
     /// # Errors
-    /// What was expected, in words.
+    /// The expected value, in words.
     pub fn parse(&self, text: &str) -> Result<OptionValue, String> {
         self.kind.parse(text)
     }
@@ -231,7 +232,7 @@ impl EngineOption {
         }
     }
 
-    /// What may be written for it in the text of a setup: `limit=N`, `levels=N, levels=all`.
+    /// Its forms in the text of a setup: `limit=N`, `levels=N, levels=all`.
     pub(crate) fn forms(&self) -> String {
         match (self.key, self.kind) {
             (None, _) => self.names().join(", "),
@@ -257,7 +258,7 @@ impl EngineOption {
         }
     }
 
-    /// What a report says of the option: `jumps up to 16`, `2 levels`.
+    /// The option with a value, in reports: `jumps up to 16`, `2 levels`.
     #[must_use]
     pub fn describe(&self, value: OptionValue) -> String {
         let value = match value {
@@ -272,7 +273,7 @@ impl EngineOption {
         self.samples.iter().filter_map(|text| self.parse(text).ok())
     }
 
-    /// What an error calls it.
+    /// Its noun in errors.
     pub(crate) const fn noun(&self) -> &'static str {
         self.noun
     }

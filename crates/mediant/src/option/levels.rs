@@ -22,7 +22,7 @@ pub enum Levels {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a whole number from 1 to {}, all, contracted or labels", u32::MAX)]
 pub struct UnknownLevels {
-    /// What was found.
+    /// The text found there.
     pub found: String,
 }
 

@@ -18,7 +18,7 @@ pub struct Memory(NonZeroU64);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected a whole number of bytes from 1 up, also as 500kB, 8MB or 1GB")]
 pub struct UnknownMemory {
-    /// What was found.
+    /// The text found there.
     pub found: String,
 }
 

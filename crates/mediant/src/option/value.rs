@@ -40,7 +40,7 @@ pub enum Variant {
 
 names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");
 
-/// What kind of value an option takes.
+/// The kinds of value that options take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueKind {
     /// None: the option is given or not.

@@ -53,7 +53,7 @@ pub struct Planner {
     begun: Option<Search>,
     /// Of the space's k; made when it is first needed.
     metric: Option<Metric>,
-    /// What asks for prepared goals.
+    /// The many-goals search, on an index with hub labels.
     pub(crate) asked: Asked,
 }
 
@@ -61,7 +61,7 @@ impl Space {
     /// A planner of an engine, on an index of its own.
     ///
     /// # Errors
-    /// Those of [`prepare`](Self::prepare) and of [`Index::try_planner`].
+    /// As for [`prepare`](Self::prepare) and [`Index::try_planner`].
     pub fn planner(&self, engine: impl Into<ConfiguredEngine>) -> Result<Planner, Error> {
         self.prepare(engine)?.try_planner()
     }
@@ -80,7 +80,7 @@ impl Setup {
     /// Prepares the setup's engine in a space.
     ///
     /// # Errors
-    /// Those of [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
+    /// As for [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
     pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
         let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
         needed.check("the setup", ("the space", space.identity()))?;
@@ -90,7 +90,7 @@ impl Setup {
     /// A planner on a map, with a space and an index of its own.
     ///
     /// # Errors
-    /// Those of [`space`](Self::space), of [`prepare`](Self::prepare) and of [`Index::try_planner`].
+    /// As for [`space`](Self::space), [`prepare`](Self::prepare) and [`Index::try_planner`].
     pub fn planner(&self, map: &Map) -> Result<Planner, Error> {
         self.prepare(&self.space(map)?)?.try_planner()
     }
@@ -166,7 +166,7 @@ impl Planner {
     /// ```
     ///
     /// # Errors
-    /// Those of [`find`](Self::find).
+    /// As for [`find`](Self::find).
     pub fn path(
         &mut self,
         start: impl Into<Vertex>,
@@ -193,7 +193,7 @@ impl Planner {
     /// ```
     ///
     /// # Errors
-    /// Those of [`find`](Self::find).
+    /// As for [`find`](Self::find).
     pub fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
         if self.smooth.is_some() {
             return Ok(self.find(query)?.cost());
@@ -205,7 +205,7 @@ impl Planner {
     /// Answers a query and reports the events of the search.
     ///
     /// # Errors
-    /// Those of [`find`](Self::find).
+    /// As for [`find`](Self::find).
     pub fn find_observed(
         &mut self,
         request: impl Into<Request>,
@@ -225,7 +225,7 @@ impl Planner {
     /// Answers a query and counts the events of the search.
     ///
     /// # Errors
-    /// Those of [`find`](Self::find).
+    /// As for [`find`](Self::find).
     pub fn find_counted(&mut self, request: impl Into<Request>) -> Result<(Outcome, Counters), QueryError> {
         let mut counters = Counters::default();
         let answer = self.find_observed(request, &mut counters)?;

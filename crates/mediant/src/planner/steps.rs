@@ -68,7 +68,7 @@ impl Planner {
     /// [pause](Observer::pauses) it before.
     ///
     /// # Errors
-    /// Those of [`step`](Self::step).
+    /// As for [`step`](Self::step).
     pub fn step_observed(
         &mut self,
         expansions: u64,
@@ -83,7 +83,7 @@ impl Planner {
     /// Continues the search until there is an answer.
     ///
     /// # Errors
-    /// Those of [`step`](Self::step).
+    /// As for [`step`](Self::step).
     pub fn finish(&mut self) -> Result<Outcome, QueryError> {
         self.finish_observed(&mut ())
     }

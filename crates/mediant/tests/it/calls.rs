@@ -40,7 +40,7 @@ fn vertex(of: &Json) -> Vertex {
     Vertex::new(at(0), at(1))
 }
 
-/// What becomes of a call.
+/// The answer to a call.
 fn answer(map: &Map, case: &Json) -> Result<Json, Error> {
     let call = call(&case["call"])?;
     let setup = map.setup(&call)?;

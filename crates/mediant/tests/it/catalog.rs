@@ -1,4 +1,4 @@
-//! What the catalog says of each engine is true, and what is wrong is refused.
+//! The catalog is true of each engine, and wrong setups are refused.
 
 use std::num::NonZeroU32;
 

@@ -140,7 +140,7 @@ fn a_changed_map_has_other_dead_ends() {
     });
 }
 
-/// What is prepared is counted: an index for a single path has nothing of it, and its planners take less.
+/// Memory of dead ends is counted: an index for a single path has none, and its planners take less.
 #[test]
 fn a_single_path_prepares_nothing() {
     let (width, height) = (128, 64);

@@ -12,7 +12,7 @@ use mediant_oracle::{Rng, caves};
 
 use super::{k, map};
 
-/// What a user keeps can go to another thread, and what is shared can be used by many.
+/// Handles can go to another thread; threads can share a map, a space and an index.
 #[test]
 fn handles_are_owned_and_can_be_sent() {
     fn shared<T: Clone + Send + Sync + 'static>() {}
@@ -482,7 +482,7 @@ fn an_index_takes_the_options_that_it_serves() {
                 }
                 Ok(index) => {
                     let found = index.planner().find_counted(query);
-                    // What the options leave out is as it was prepared.
+                    // Levels and side stay as prepared where the options leave them out.
                     let named = index.setup().prepare(&space).expect("it fits").planner().find_counted(query);
                     assert_eq!(found, named, "{one}, {other}");
                     accepted += 1;

@@ -1,4 +1,4 @@
-//! What people try first, before they have read anything: each guess compiles, and means what it says.
+//! First guesses of people who have read nothing: each compiles, and means what it says.
 
 use mediant::{
     CornerRule, DiagonalGap, Engine, Error, ErrorCode, FiniteK, IntoK, K, Limits, Map, Motion, Outcome, Path,
@@ -131,7 +131,7 @@ fn k_is_a_number() -> Result<(), Error> {
     Ok(())
 }
 
-/// What is wrong with a k is said where the motion is used, in all ways of using it.
+/// A bad k is refused where the motion is used, in all ways of using it.
 #[test]
 fn a_bad_k_is_kept_until_it_is_used() -> Result<(), Error> {
     #[track_caller]
@@ -246,7 +246,7 @@ fn an_error_says_what_is_wrong_by_debug() -> Result<(), Error> {
     Ok(())
 }
 
-/// What a program keeps for all its threads.
+/// One `Planners` serves all threads of a program.
 #[test]
 fn planners_can_be_shared() {
     fn resource<T: Send + Sync + 'static>() {}

@@ -110,7 +110,7 @@ fn in_engines_and_indexes() -> Vec<Mistake> {
 fn each_mistake_has_its_code() {
     let parts = [in_maps_and_queries(), in_requests(), in_engines_and_indexes()];
     let mistakes: Vec<Mistake> = parts.into_iter().flatten().collect();
-    // Those of other tests, of no call of the door, or of what only other versions do.
+    // Codes of other tests, of no call of the door, or of other versions alone.
     let elsewhere = [
         Code::Mismatch,
         Code::GaveUp,
@@ -163,7 +163,7 @@ fn what_is_not_there_is_said_by_the_name_that_people_look_for() {
     ] {
         assert!(absent(name).is_some_and(|why| why.contains(part)), "{name}: {:?}", absent(name));
     }
-    // What the library has, and what nobody asks for.
+    // Names of things that the library has, and names that nobody looks for.
     let options = EngineOption::ALL.map(|option| option.name);
     let others = ["k", "placement", "max_cost", "timeout", "nearest", "", "_", "wieghts"];
     for name in options.into_iter().chain(others) {

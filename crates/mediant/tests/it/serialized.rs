@@ -1,4 +1,4 @@
-//! What serde reads and writes: round trips, the forms as others see them, and data that is refused.
+//! Serde: round trips, the forms as others see them, and data that is refused.
 
 use std::fmt::Debug;
 
@@ -89,7 +89,7 @@ fn names_and_setups_are_texts() {
     }
 }
 
-/// What is read is what a constructor could have made.
+/// Serde reads only values that a constructor could have made.
 #[test]
 fn invalid_data_is_refused() {
     for wrong in [json!(0), json!(1)] {

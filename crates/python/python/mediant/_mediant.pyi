@@ -1,4 +1,4 @@
-"""The types of the compiled module. What each item does is in its docstring: `help(mediant.Grid)`."""
+"""The types of the compiled module; its docstrings describe the items: `help(mediant.Grid)`."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -57,7 +57,7 @@ class Motion(TypedDict, total=False):
     gap: Gap | None
 
 class Wishes(TypedDict, total=False):
-    """What is asked of a path beyond its ends."""
+    """Wishes beyond the ends of a path."""
 
     nearest: bool | None
     snap: bool | None

@@ -2,10 +2,10 @@
 
 Each function has the name, the parameters, the result and the errors of the one that it stands in for, on
 arrays in which all passable cells cost the same. Where several paths are equally good, it may return another
-of them: costs are the same, cells need not be. What cannot be answered the same is an error, never another
-answer: `mediant.OptionError`.
+of them: costs are the same, cells need not be. A call that cannot be answered the same is an error, never
+another answer: `mediant.OptionError`.
 
-Every call makes a new grid of its array, as the originals do. Who asks for many paths on one map saves that:
+Every call makes a new grid of its array, as the originals do. For many paths on one map there is less to do:
 ``mediant.Grid(blocked).prepare(corners="always")`` has an index that answers much faster.
 """
 

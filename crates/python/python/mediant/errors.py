@@ -110,7 +110,7 @@ class LimitReached(MediantError):
     Attributes
     ----------
     answer : Answer or None
-        What is known: the best path so far, and a lower bound.
+        The best path so far, and a lower bound.
     """
 
     answer: Answer | None

@@ -87,7 +87,7 @@ def show(
     Returns
     -------
     matplotlib.axes.Axes
-        What was drawn on. ``ax.figure.savefig("map.png")`` saves it.
+        The axes that were drawn on. ``ax.figure.savefig("map.png")`` saves it.
 
     Raises
     ------

@@ -104,7 +104,7 @@ pub(crate) fn nearest<'py>(
     {
         return Err(numbered("goal", number, error));
     }
-    // What is left has the numbers that it had.
+    // The goals that are left keep their numbers.
     let is_valid = |&(_, at): &(i64, Vertex)| index.space().is_free(at);
     let (numbers, goals): (Vec<i64>, Vec<Vertex>) = (0..).zip(goals).filter(is_valid).unzip();
     let (goals, all) = (prepared(py, index, goals)?, Numbered::queries(starts.len()));

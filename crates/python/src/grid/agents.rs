@@ -159,7 +159,7 @@ impl Grid {
     /// surplus : float
     ///     How much longer it may be: 0.1 allows 10 % more.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What the array has: see `find`.
+    ///     The points of the array: see `find`.
     /// **motion
     ///     As in `find`.
     ///
@@ -219,7 +219,7 @@ impl Grid {
         }
     }
 
-    /// What `of` takes from the measured clearance.
+    /// Measures the clearance, and applies `of` to it.
     fn measured<T: Send + 'static>(
         &self,
         py: Python<'_>,

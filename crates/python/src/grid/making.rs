@@ -69,7 +69,7 @@ impl Grid {
     /// invert : bool
     ///     Takes a picture as a negative: light pixels are blocked.
     /// unknown : {"blocked", "free"}
-    ///     What becomes of transparent pixels, and of the unknown cells of a ROS map.
+    ///     Whether transparent pixels, and the unknown cells of a ROS map, are blocked or free.
     /// ros : {2, 1}
     ///     Whose `map_server` says how the picture of a ROS map is read: that of ROS 2 (nav2 since 2025: the
     ///     luma of colours, thresholds that count, pixels that are not opaque unknown) or that of ROS 1 (the

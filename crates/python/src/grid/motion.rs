@@ -1,4 +1,4 @@
-//! What the rules of motion make of a grid.
+//! Free vertices, lines of sight and legal paths of a grid, under rules of motion.
 
 use mediant::Path;
 use pyo3::{prelude::*, types::PyDict};

@@ -19,8 +19,8 @@ impl Grid {
     /// The grid of an occupancy message of ROS.
     ///
     /// Its row 0 is the lowest; -1 is unknown, and 0 to 100 say by how many percent a cell is occupied. A
-    /// cell is free up to ``free``, else occupied from ``occupied`` on. What lies between them is unknown,
-    /// and so are all numbers below 0 or above 100.
+    /// cell is free up to ``free``, else occupied from ``occupied`` on. Numbers between them are unknown, and
+    /// so are all below 0 or above 100.
     ///
     /// Parameters
     /// ----------
@@ -38,7 +38,7 @@ impl Grid {
     /// occupied, free : float
     ///     The thresholds, in percent.
     /// unknown : {"blocked", "free"}
-    ///     What becomes of unknown cells.
+    ///     Whether unknown cells are blocked or free.
     ///
     /// Returns
     /// -------
@@ -160,7 +160,7 @@ fn rows<'py>(
     let (py, name) = (occupancy.py(), "occupancy");
     let wrong = |cause| instead(py, cause, wrong_type(name, "an array of integers", occupancy));
     let ma = py.import("numpy.ma")?;
-    // What is masked is unknown, as the usual converters of messages have it.
+    // Masked cells are unknown, as the usual converters of messages have it.
     let array = if occupancy.is_instance(&ma.getattr("MaskedArray")?)? {
         ma.call_method1("filled", (occupancy, -1)).map_err(wrong)?
     } else {

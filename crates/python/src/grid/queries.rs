@@ -33,7 +33,7 @@ impl Grid {
     /// start, goal : tuple of int
     ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What the array has: see `find`.
+    ///     The points of the array: see `find`.
     /// **how
     ///     Motion, wishes, the engine and its options: see `find`.
     ///
@@ -139,9 +139,9 @@ impl Grid {
     /// start, goal : tuple of int
     ///     As in `path`.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What arrays of paths have: the waypoints, joined by straight lines; each vertex at which a move
-    ///     ends, the walk of an agent; or each cell that the path touches, which is no walk: passing between
-    ///     four cells it touches all of them, and along a grid line those on both sides.
+    ///     The points of arrays of paths: the waypoints, joined by straight lines; each vertex at which a
+    ///     move ends, the walk of an agent; or each cell that the path touches, which is no walk: passing
+    ///     between four cells it touches all of them, and along a grid line those on both sides.
     /// counters : bool
     ///     Whether to count the events of the search, which makes it slower.
     /// k : int or "any"
@@ -458,7 +458,7 @@ impl Grid {
     }
 }
 
-/// What a preparation has told last.
+/// The last progress of a preparation.
 #[derive(Default)]
 struct Told {
     /// 0 before the first stage.

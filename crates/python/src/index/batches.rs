@@ -19,16 +19,15 @@ impl Index {
     /// starts, goals : array_like of int
     ///     (row, column) points, shape (n, 2); one single point stands for all queries.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What the arrays have: see `Grid.find`.
+    ///     The points of the arrays: see `Grid.find`.
     /// threads : int, optional
     ///     The number of threads; by default one for each core. The answers are the same on any number.
     /// progress : callable, optional
     ///     Called now and then with the number of queries that were answered and of all.
     /// invalid : {"raise", "none"}
-    ///     What to do with a query whose start or goal is blocked or outside the map: raise an error, or
-    ///     answer it with no path. A query at which the engine gives up, though there may be a path, counts
-    ///     as one of these: CHPA* in the variant of its paper (``variant="paper"``) does that, no other
-    ///     engine.
+    ///     For a query whose start or goal is blocked or outside the map: raise an error, or answer it with
+    ///     no path. A query at which the engine gives up, though there may be a path, counts as one of these:
+    ///     CHPA* in the variant of its paper (``variant="paper"``) does that, no other engine.
     /// **wishes
     ///     Of each query: see `Grid.find`.
     ///
@@ -171,8 +170,8 @@ impl Index {
     /// threads, progress
     ///     As in `paths`.
     /// invalid : {"raise", "none"}
-    ///     What to do with a start or goal that is blocked or outside the map: raise an error, or give that
-    ///     start no goal, and that goal to no start.
+    ///     For a start or goal that is blocked or outside the map: raise an error, or give that start no
+    ///     goal, and that goal to no start.
     ///
     /// Returns
     /// -------

@@ -1,4 +1,4 @@
-//! What an engine prepared.
+//! Indexes: the preparation of an engine.
 
 mod batches;
 mod queries;
@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 pub(crate) use self::queries::Asked;
 use crate::grid::Grid;
 
-/// What an engine prepared of a grid: paths in microseconds.
+/// The preparation of an engine on a grid: paths in microseconds.
 ///
 /// `Grid.prepare`, `Grid.load` and pickle make it. It never changes; all threads can share it, and each query
 /// runs with the GIL released.
@@ -41,7 +41,7 @@ use crate::grid::Grid;
 /// origin : {"prepared", "loaded", "repaired", "unchanged"}
 ///     How it came about.
 /// guarantee : str
-///     What is guaranteed of its paths.
+///     The guarantee of its paths.
 /// bound : float or None
 ///     How much longer than the shortest at any angle its paths can be, as a factor; None if nothing is
 ///     proven.
@@ -139,7 +139,7 @@ impl Index {
         self.planners.index().origin().name()
     }
 
-    /// What is guaranteed of its paths.
+    /// The guarantee of its paths.
     #[getter(guarantee)]
     fn guarantee_text(&self) -> String {
         match self.guarantee().0 {

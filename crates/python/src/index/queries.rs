@@ -117,7 +117,7 @@ impl Index {
     /// start, goal : tuple of int
     ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What the array has: see `Grid.find`.
+    ///     The points of the array: see `Grid.find`.
     /// **wishes
     ///     ``nearest``, ``tolerance``, ``snap`` and limits: see `Grid.find`.
     ///
@@ -204,7 +204,7 @@ impl Index {
     /// start, goal : tuple of int
     ///     As in `path`.
     /// points : {"waypoints", "vertices", "touched"}
-    ///     What arrays of paths have: see `Grid.find`.
+    ///     The points of arrays of paths: see `Grid.find`.
     /// counters : bool
     ///     Whether to count the events of the search, which makes it slower.
     /// **wishes

@@ -22,8 +22,8 @@ impl Index {
     /// Parameters
     /// ----------
     /// **options
-    ///     As in `Grid.prepare`. Those that are left out have their defaults, except those that decided what
-    ///     is prepared: ``levels`` and ``side`` stay as they are.
+    ///     As in `Grid.prepare`. Options that are left out have their defaults, except those that decided
+    ///     what is prepared: ``levels`` and ``side`` stay as they are.
     ///
     /// Returns
     /// -------

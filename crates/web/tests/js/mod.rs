@@ -14,13 +14,13 @@ pub(crate) fn get(object: &JsValue, key: &str) -> JsValue {
     Reflect::get(object, &key.into()).unwrap_or_else(|_| panic!("{key} throws"))
 }
 
-/// What a method gives or throws.
+/// The value that a method returns or throws.
 pub(crate) fn call(object: &JsValue, method: &str, arguments: &[JsValue]) -> Result<JsValue, JsValue> {
     let function: Function = get(object, method).dyn_into().unwrap_or_else(|_| panic!("no method {method}"));
     Reflect::apply(&function, object, &arguments.iter().collect::<Array>())
 }
 
-/// What a method gives.
+/// The value that a method returns.
 pub(crate) fn ok(object: &JsValue, method: &str, arguments: &[JsValue]) -> JsValue {
     call(object, method, arguments).unwrap_or_else(|error| panic!("{method}: {}", text(&error)))
 }

@@ -30,7 +30,7 @@ fn pairs(world: &World, starts: &[Vertex], goals: &[Vertex]) -> Vec<Pair> {
     goals.iter().flat_map(|&goal| to(goal)).collect()
 }
 
-/// What a request asks for: these ends, in this order.
+/// A request, with the ends that it asks for, in order.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
     pub(super) request: Request,
@@ -291,7 +291,7 @@ fn what_cannot_be_the_best_is_not_searched() {
         let mut searched = 0;
         for (setup, mut planner) in world.planners() {
             let draws = (0..12).filter_map(|_| Some((world.free(rng)?, world.free(rng)?, world.free(rng)?)));
-            // Which bound orders the pairs: h_k, or for any-angle paths the straight line.
+            // The bound that orders the pairs: h_k, or for any-angle paths the straight line.
             let is_first = |start: Vertex, [first, second]: [Vertex; 2]| {
                 let straight = start.to(first).norm_squared() < start.to(second).norm_squared();
                 straight && world.least(start, first) < world.least(start, second)

@@ -85,7 +85,7 @@ fn check_stopped(
 
 /// Checks that each vertex that was reached can be reached, at that cost.
 fn check_reached(world: &World, setup: Setup, known: &Known<'_>, log: &Log) {
-    // What a search reaches is not smoothed.
+    // Costs of reached vertices are those of paths without smoothing.
     let paths = Setup { smoothing: None, ..setup }.paths();
     let costs = if paths == K::Any { &known.any_angle_costs } else { &known.costs };
     for event in &log.0 {
@@ -243,7 +243,7 @@ fn check_deadline(world: &World, setup: Setup, planner: &mut Planner, known: &Kn
     let each = mediant_search::Limits::EXPANSIONS_PER_LOOK;
     assert_eq!(all.first(), Some(&0), "{}", text());
     let last = all[all.len() - 1];
-    // What a planner does within clusters is not interrupted.
+    // Searches within clusters are not interrupted.
     let is_even = all.windows(2).all(|ends| ends[1] == ends[0] + each) && n - last <= each;
     assert!(is_even || expands_in_clusters(setup), "{all:?}: {}", text());
     assert!(all.windows(2).all(|ends| ends[1] >= ends[0] + each), "{all:?}: {}", text());

@@ -172,7 +172,7 @@ impl World {
         assert_eq!(path.bends(), inner, "{path} goes straight on at a waypoint; {}", self.text(setup, asked));
     }
 
-    /// What to say of a failure.
+    /// The text of a failure.
     fn text(&self, setup: Setup, asked: &dyn Debug) -> String {
         let nowhere = Vertex::new(-1, -1);
         let map = describe(&self.grid, self.space.motion().rules, nowhere, nowhere, self.seed);
@@ -200,7 +200,7 @@ fn start(path: &Path) -> Vertex {
     path.waypoints()[0]
 }
 
-/// What a search told.
+/// An event that a search told its observer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Event {
     Expanded(NodeEvent),

@@ -88,7 +88,7 @@ fn a_tolerance_reaches_through_walls() {
     }
 }
 
-/// What was not reached is not named: a search that is stopped early ends in the room where it began, though
+/// A search names only vertices that it reached: stopped early, it ends in the room where it began, though
 /// the goal is nearer from outside.
 #[test]
 fn a_stopped_search_names_what_it_reached() {

@@ -38,13 +38,13 @@ class Solver:
         `mediant.Index`, or a pair of a map and the path of the file of its index. One map alone is for all
         rows; a column ``map`` is not read then.
     k, engine, placement, corners, gap
-        As for `Grid.prepare`. What is None is chosen there; k is 3 then. An index that is given has its own:
-        it is an error if something else is asked for.
+        As for `Grid.prepare`. It chooses those that are None; k is 3 then. An index that is given has its
+        own: it is an error if something else is asked for.
     paths : bool
         Whether the answer has the column ``path``. Without it, and without options of queries, no path is
         made, which takes half of the time on prepared maps; distances are those of `Index.distances` then.
     points : {"waypoints", "vertices", "touched"}
-        What points a path has.
+        The points that a path has.
     threads : int, optional
         The threads that prepare a map and answer its queries. All cores, if None.
     invalid : {"none", "raise"}

@@ -54,7 +54,7 @@ class Setup(NamedTuple):
 
 
 class Source(Protocol):
-    """What makes the index of a map. Sources pickle, and are small in the process that gets them."""
+    """A maker of the index of a map. Sources pickle, and are small in the process that gets them."""
 
     def key(self) -> Hashable:
         """Tell it from others: those of one key make the same index."""
