@@ -201,7 +201,7 @@ impl Space {
         goal: impl Into<Vertex>,
         surplus: f64,
     ) -> Result<Option<WidestPath>, Error> {
-        self.within(&Limits::new()).widest_path(start, goal, surplus)
+        self.within(Limits::new()).widest_path(start, goal, surplus)
     }
 
     pub(crate) fn widest_path_of(

@@ -80,7 +80,7 @@ impl Exceptions {
                 ends.filter_map(|&end| shut_cell(&changed, motion.rules.placement(), end)).collect();
             changed = changed.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;
         }
-        Ok(if changed == *map { None } else { Some(changed.within(&request.limits()).space(motion)?) })
+        Ok(if changed == *map { None } else { Some(changed.within(request.limits()).space(motion)?) })
     }
 }
 
@@ -132,7 +132,7 @@ impl Planner {
         let Setup { engine, smoothing, .. } = self.index().setup();
         let is_online = engine.kind().capabilities().index.is_none();
         let engine = if is_online { engine } else { Choice::for_one_path(space.motion()).engine.into() };
-        let index = space.within(&request.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
+        let index = space.within(request.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
         Ok(Some(index.try_planner()?))
     }
 }

@@ -63,7 +63,7 @@ impl Index {
         starts: impl IntoIterator<Item = S>,
         goals: impl IntoIterator<Item = G>,
     ) -> Result<Table, Error> {
-        self.within(&Limits::new()).table(starts, goals)
+        self.within(Limits::new()).table(starts, goals)
     }
 
     /// Of the limits only the deadline and the flag count.

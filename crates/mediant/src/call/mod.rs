@@ -63,6 +63,7 @@ impl Call {
     ///
     /// # Errors
     /// [`CallError`] for a value that the parameter cannot have; it names the parameter.
+    #[expect(clippy::needless_pass_by_value, reason = "it is made for this call")]
     pub fn set(&mut self, parameter: &'static Parameter, value: Value<'_>) -> Result<(), CallError> {
         if matches!(value, Value::Absent) {
             return Ok(());
