@@ -65,7 +65,7 @@ pub(crate) struct Unanswered {
 impl Unanswered {
     /// The error of a query on a map.
     pub(crate) fn new(error: QueryError, map: &NamedMap, placement: PlacementKind) -> Self {
-        Self { code: mediant::Error::from(error.clone()).code(), text: explain(error, map, placement) }
+        Self { code: mediant::Error::from(error).code(), text: explain(error, map, placement) }
     }
 }
 

@@ -238,7 +238,7 @@ impl Report for TableReport<'_> {
         let name = setup.engine.kind().name();
         let mut parts = vec![name.to_owned()];
         parts.extend(options(run));
-        parts.extend(setup.smoothing.map(|smoothing| format!("smoothing {}", smoothing)));
+        parts.extend(setup.smoothing.map(|smoothing| format!("smoothing {smoothing}")));
         let last = parts.len() - 1;
         let words = parts.iter().enumerate();
         let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));

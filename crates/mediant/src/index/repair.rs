@@ -26,7 +26,7 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::Mismatch`] for a change of another map, of other rules or another k; those of
-    /// [`Space::prepare`].
+    /// [`Space::prepare`](crate::Space::prepare).
     pub fn repair(&self, change: &Change) -> Result<Self, Error> {
         self.repaired(change, &NEVER)
     }
