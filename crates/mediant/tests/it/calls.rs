@@ -47,7 +47,7 @@ fn answer(map: &Map, case: &Json) -> Result<Json, Error> {
     let is_late = call.wishes().timeout == Some(0.0);
     let limits = |limits: Limits| if is_late { limits.deadline(|| true) } else { limits };
     let stopped = json!({ "setup": setup.to_string(), "status": "stopped", "stopped_by": "timeout" });
-    let planners = match map.keep_planners(&setup, &limits(Limits::new())) {
+    let planners = match map.keep_planners(&setup, limits(Limits::new())) {
         Err(Error::Stopped { .. }) => return Ok(stopped),
         planners => planners?,
     };

@@ -156,7 +156,7 @@ fn a_bad_k_is_kept_until_it_is_used() -> Result<(), Error> {
     check(u64::MAX, ErrorCode::Motion, "k = 18446744073709551615");
 
     let map = hall()?;
-    for disc in [map.for_disc(0.5, 1), map.within(&Limits::new()).for_disc(0.5, 1)] {
+    for disc in [map.for_disc(0.5, 1), map.within(Limits::new()).for_disc(0.5, 1)] {
         check_error(disc, ErrorCode::K);
     }
     check_error(map.disc(0.5, Motion::corners(0)), ErrorCode::K);

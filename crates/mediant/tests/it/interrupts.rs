@@ -84,7 +84,7 @@ fn preparations_stop() {
         check(engine.name(), |limits| space.within(limits).prepare(engine));
         let index = space.prepare(engine).expect("an index");
         // A limit that is not met changes nothing.
-        let within = space.within(&Limits::new().deadline(|| false)).prepare(engine).expect("an index");
+        let within = space.within(Limits::new().deadline(|| false)).prepare(engine).expect("an index");
         assert_eq!(within.searched_by(), index.searched_by());
         if let Ok(bytes) = index.to_bytes() {
             assert!(within.to_bytes().is_ok_and(|same| same == bytes), "{engine}");
