@@ -174,7 +174,7 @@ fn keeps_nothing_once_stopped(space: &Space, engine: ConfiguredEngine) {
         asked.store(0, Ordering::Relaxed);
         Limits::new().deadline(move || counter.fetch_add(1, Ordering::Relaxed) >= questions)
     };
-    assert!(space.within(&stop_after(usize::MAX)).prepare(engine).is_ok());
+    assert!(space.within(stop_after(usize::MAX)).prepare(engine).is_ok());
     let all = asked.load(Ordering::Relaxed);
     // An engine that prepares nothing asks nothing.
     for questions in [10, 50, 90].map(|percent| all * percent / 100).into_iter().filter(|_| all > 0) {
