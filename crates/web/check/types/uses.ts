@@ -37,8 +37,8 @@ initSync({ module: bytes });
 const text: string = version();
 const all: EngineInfo[] = engines();
 const able = all.map(
-  ({ name, placements, maxK, any, guarantee, paper, index, options }) =>
-    `${name} ${placements.join()} ${maxK.toFixed()} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
+  ({ name, title, how, placements, maxK, any, guarantee, paper, index, options }) =>
+    `${name} ${title} ${how} ${placements.join()} ${maxK.toFixed()} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
 );
 const star: Int32Array = moves(4);
 
