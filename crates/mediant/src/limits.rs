@@ -5,6 +5,7 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
+use mediant_grid::Interrupt;
 use mediant_search::Limits as SearchLimits;
 
 /// Limits of a query, or of a call [within](crate::Within) them. None is set at first; the first one that is
@@ -73,6 +74,12 @@ impl Limits {
     pub fn cancel(mut self, flag: Arc<AtomicBool>) -> Self {
         self.limits = self.limits.cancel(flag);
         self
+    }
+
+    /// The time, the deadline and the flag, as the typed crates ask them. Begins the time.
+    #[must_use]
+    pub fn interrupt(&self) -> Interrupt {
+        SearchLimits::from(self).interrupt().clone()
     }
 }
 

@@ -191,7 +191,7 @@ pub(crate) fn map_of_bits(
         let bytes = bits.get(first..end.min(first + 8)).unwrap_or_default();
         bytes.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte))
     };
-    Ok(Grid::from_words_interruptible(columns, rows, limits.interrupt(), word)?.into())
+    Ok(Grid::from_words_interruptible(columns, rows, &limits.interrupt(), word)?.into())
 }
 
 /// The bits of a map, as [`map_of_bits`] takes them.

@@ -48,9 +48,10 @@ impl Grid {
         let (fit, outside) = (read_fit(fit)?.unwrap_or(Fit::Centers), read_outside(outside)?);
         let (width, height) = (self.map().width() as i32, self.map().height() as i32);
         let distances = self.measured(py, (fit, outside), move |clearance, limits| {
-            let mut distances = Vec::with_capacity(width as usize * height as usize);
+            let (mut distances, interrupt) =
+                (Vec::with_capacity(width as usize * height as usize), limits.interrupt());
             for y in 0..height {
-                limits.interrupt().check("measuring clearances")?;
+                interrupt.check("measuring clearances")?;
                 let row = (0..width).map(|x| clearance.largest_disc(Vertex::new(x, y)).unwrap_or(0.0));
                 distances.extend(row);
             }
@@ -114,7 +115,7 @@ impl Grid {
         let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
         let (cells, outside) = (self.radius(radius, meters)?, read_outside(outside)?);
         let measured = move |clearance: &Clearance, limits: &Limits| {
-            Ok(clearance.for_disc_interruptible(cells, limits.interrupt())?)
+            Ok(clearance.for_disc_interruptible(cells, &limits.interrupt())?)
         };
         let grid = self.measured(py, (fit, outside), measured)?;
         Ok(Self::new(grid.into(), self.shared.world))
