@@ -47,7 +47,6 @@ macro_rules! names {
             pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
 
             /// All values, one after the other.
-            #[must_use]
             pub fn all() -> impl Iterator<Item = Self> {
                 Self::ALL.into_iter()
             }
