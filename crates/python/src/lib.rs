@@ -3,8 +3,8 @@
 //!
 //! - `arguments`: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
 //!   mistake names its argument.
-//! - `grid`, `index`, `field`, `world`: the classes. All are frozen, so threads share them.
-//! - `answer`, `paths`: what `find` and batches answer.
+//! - `grid`, `index`, `field`, `world`, `scenario`: the classes. All are frozen, so threads share them.
+//! - `answer`, `paths`, `spaced`: what `find` and batches answer, and points along a path.
 //! - `arrays`: maps from arrays, and arrays from paths.
 //! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
 //! - `errors`: the library's errors as exceptions.
@@ -38,4 +38,6 @@ mod index;
 mod keywords;
 mod module;
 mod paths;
+mod scenario;
+mod spaced;
 mod world;
