@@ -12,8 +12,8 @@
 //! # Points
 //!
 //! Python has (row, column), the library (x, y). They are exchanged where a point comes in (`arguments`),
-//! where it goes out (`arrays`; in `field`, `world` and `moves` beside the values they make), and in the text
-//! of an error (`errors`).
+//! where it goes out (`arrays`; in `field`, `world`, `spaced` and `moves` beside the values they make), and
+//! in the text of an error (`errors`).
 //!
 //! # Time
 //!
