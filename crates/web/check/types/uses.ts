@@ -41,9 +41,8 @@ initSync({ module: bytes });
 
 const text: string = version();
 const all: EngineInfo[] = engines();
-const able = all.map(
-  ({ name, title, how, placements, maxK, any, guarantee, paper, index, options }) =>
-    [name, title, how, placements.join(), maxK.toFixed(), any, guarantee, paper, index, options.join()].join(),
+const able = all.map(({ name, title, how, placements, maxK, any, guarantee, paper, index, options }) =>
+  [name, title, how, placements.join(), maxK.toFixed(), any, guarantee, paper, index, options.join()].join(),
 );
 const star: Int32Array = moves(4);
 
