@@ -32,7 +32,7 @@ const ABSENT: [(&[&str], &str); 7] = [
 /// ```
 #[must_use]
 pub fn absent(name: &str) -> Option<&'static str> {
-    let plain: String = name.to_lowercase().chars().filter(|c| !matches!(c, '_' | '-')).collect();
+    let plain: String = name.to_ascii_lowercase().chars().filter(|c| !matches!(c, '_' | '-')).collect();
     let begins = |words: &[&str]| words.iter().any(|word| plain.starts_with(word));
     ABSENT.iter().find(|(words, _)| begins(words)).map(|&(_, why)| why)
 }

@@ -1,6 +1,6 @@
 //! The answer to a query, as every language tells it.
 
-use mediant_grid::names;
+use mediant_grid::{Rules, names};
 use mediant_search::{Guarantee, Limit, Outcome, Path, Stopped};
 
 /// The kind of an answer.
@@ -74,8 +74,9 @@ impl<'a> Answer<'a> {
     /// No path of the engine's kind to the goal that was asked for is shorter, in cells: no path over N(k),
     /// or by an engine of any-angle paths no path at all. Of a found path its own length where the engine
     /// guarantees that it is shortest, else 0; of a stopped answer what the search has ruled out; infinite
-    /// where there is no path, also of a nearest answer. [`Guarantee::lower_bound`] is another bound: for all
-    /// angles, between the ends of the path that was found.
+    /// where there is no path, also of a nearest answer.
+    /// [`any_angle_lower_bound`](Self::any_angle_lower_bound) is another bound: for all angles, between the
+    /// ends of the path that was found.
     #[must_use]
     pub fn lower_bound(&self) -> f64 {
         let is_optimal = matches!(self.guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle);
@@ -85,6 +86,31 @@ impl<'a> Answer<'a> {
             Outcome::Found(_) => 0.0,
             _ => f64::INFINITY,
         }
+    }
+
+    /// The certificate of the path: no path at any angle between the same two vertices under the same rules
+    /// is shorter than this, in cells. It is the length of the path divided by the
+    /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer. `None`
+    /// without a path. The length divided by it says how far the path can be from the best at most.
+    ///
+    /// ```
+    /// use mediant::{Answer, Engine, Map, Motion, Query};
+    ///
+    /// let space = Map::new(9, 9)?.space(Motion::corners(3))?;
+    /// let mut planner = space.planner(Engine::AStar)?;
+    /// let outcome = planner.find(Query::new((0, 0), (4, 2)))?;
+    /// let answer = Answer::new(&outcome, planner.guarantee());
+    /// let least = answer.any_angle_lower_bound(space.motion().rules);
+    /// // The straight line is free, and 8 % shorter than the shortest path over eight directions.
+    /// assert_eq!((answer.distance().round(), least), (5.0, Some(20.0_f64.sqrt())));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    #[must_use]
+    pub fn any_angle_lower_bound(&self, rules: Rules) -> Option<f64> {
+        let path = self.path()?;
+        let (start, goal) = (path.waypoints().first()?, path.waypoints().last()?);
+        // The rounded sum of a straight path's parts may be less than the straight line.
+        Some(self.guarantee.lower_bound(rules, path.cost(), start.distance(*goal)).min(path.cost()))
     }
 
     /// The limit that stopped the search.

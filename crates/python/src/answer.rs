@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Counters, Error, ErrorCode, Guarantee, Limit, Outcome, PlacementKind, Stopped};
+use mediant::{Counters, Error, ErrorCode, Guarantee, Limit, Outcome, Rules, Stopped};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -25,8 +25,12 @@ use crate::{arrays::PathPoints, errors::made};
 ///     No path of the engine's kind to the goal that was asked for is shorter: no path over N(k), or at
 ///     ``k="any"`` and by an engine of any-angle paths no path at all. Of a found path its own length where
 ///     the engine guarantees that it is shortest, else 0; of a stopped answer what the search has ruled out;
-///     ``inf`` where there is no path, also of a nearest answer. (A bound for all angles, between the ends
-///     of the path that was found, is what the program prints.)
+///     ``inf`` where there is no path, also of a nearest answer.
+/// any_angle_lower_bound : float or None
+///     The certificate of the path, in cells: no path at any angle between its two ends under the same rules
+///     is shorter. It is the length of the path divided by `Index.bound`, or the straight line if that is
+///     longer. ``distance / any_angle_lower_bound`` says how far the path can be from the best at most. None
+///     without a path.
 /// counters : dict or None
 ///     The numbers of events of the search, if they were asked for.
 ///
@@ -37,6 +41,9 @@ use crate::{arrays::PathPoints, errors::made};
 /// >>> answer = grid.find((0, 0), (2, 0), k=2)
 /// >>> answer.status, answer.distance
 /// ('found', 6.0)
+/// >>> answer = mediant.Grid.from_rows(["......"] * 4).find((0, 0), (3, 4), placement="corner")
+/// >>> round(answer.distance, 2), answer.any_angle_lower_bound
+/// (5.24, 5.0)
 #[pyclass(frozen, module = "mediant")]
 pub(crate) struct Answer {
     /// The status of the query.
@@ -57,6 +64,9 @@ pub(crate) struct Answer {
     /// No path is shorter.
     #[pyo3(get)]
     lower_bound: f64,
+    /// No path at any angle is shorter.
+    #[pyo3(get)]
+    any_angle_lower_bound: Option<f64>,
     /// The numbers of events of the search.
     #[pyo3(get)]
     counters: Option<Py<PyDict>>,
@@ -76,11 +86,11 @@ impl Answer {
         py: Python<'_>,
         outcome: &Outcome,
         points: PathPoints,
-        placement: PlacementKind,
+        rules: Rules,
         (guarantee, counters): (Guarantee, Option<Counters>),
     ) -> PyResult<Self> {
         let told = mediant::Answer::new(outcome, guarantee);
-        let array = |path| points.array(py, path, placement).map(Bound::unbind);
+        let array = |path| points.array(py, path, rules.placement()).map(Bound::unbind);
         Ok(Self {
             status: told.status().name(),
             path: told.path().map(array).transpose()?,
@@ -88,6 +98,7 @@ impl Answer {
             stopped_by: told.stopped_by().map(Limit::name),
             best: told.best().map(array).transpose()?,
             lower_bound: told.lower_bound(),
+            any_angle_lower_bound: told.any_angle_lower_bound(rules),
             counters: counters.map(|counters| in_dict(py, counters)).transpose()?,
         })
     }
@@ -97,19 +108,14 @@ impl Answer {
 ///
 /// # Errors
 /// `LimitReached` with the answer.
-pub(crate) fn whole(
-    py: Python<'_>,
-    outcome: Outcome,
-    points: PathPoints,
-    placement: PlacementKind,
-) -> PyResult<Outcome> {
+pub(crate) fn whole(py: Python<'_>, outcome: Outcome, points: PathPoints, rules: Rules) -> PyResult<Outcome> {
     let Outcome::Stopped(Stopped { by, lower_bound, .. }) = &outcome else { return Ok(outcome) };
     let text = format!(
         "the search was stopped by its limit ({}): no path is shorter than {lower_bound:.3} cells; the best so \
          far is in the error's answer",
         by.name()
     );
-    let answer = Answer::new(py, &outcome, points, placement, (Guarantee::Suboptimal, None))?;
+    let answer = Answer::new(py, &outcome, points, rules, (Guarantee::Suboptimal, None))?;
     Err(made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer)))
 }
 
@@ -118,10 +124,10 @@ pub(crate) fn before_search(
     py: Python<'_>,
     outcome: &Outcome,
     points: PathPoints,
-    placement: PlacementKind,
+    rules: Rules,
     error: &Error,
 ) -> PyResult<(Answer, PyErr)> {
-    let answer = || Answer::new(py, outcome, points, placement, (Guarantee::Suboptimal, None));
+    let answer = || Answer::new(py, outcome, points, rules, (Guarantee::Suboptimal, None));
     let text = format!("{error}: nothing was searched; allow more time, or prepare an index before");
     Ok((answer()?, made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer()?))))
 }

@@ -14,7 +14,7 @@ use mediant::{Index, Levels, Limits};
 use pyo3::prelude::*;
 
 /// How often signals are looked at.
-const LOOK: Duration = Duration::from_millis(20);
+pub(crate) const LOOK: Duration = Duration::from_millis(20);
 
 /// How long an interruption waits for the work to end. Most work ends within some milliseconds; this is for
 /// work that cannot be stopped, such as a write to a disk.

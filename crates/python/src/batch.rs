@@ -15,7 +15,7 @@ use mediant::{
     Status, Vertex, names,
 };
 use numpy::PyArray1;
-use pyo3::{prelude::*, types::PyDict};
+use pyo3::prelude::*;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 pub(crate) use self::goals::{NearestArrays, nearest, table};
@@ -25,7 +25,7 @@ use crate::{
     arrays::{PathPoints, rows_array},
     background::{in_pool, is_watched, with_flag},
     errors::{argument, exception, raised, wrong_type},
-    keywords::{Keywords, WISHES},
+    keywords::Keywords,
     paths::Paths,
 };
 
@@ -155,12 +155,10 @@ pub(crate) struct Queries {
 impl Queries {
     /// Pairs of a start and a goal. One single point stands for all queries.
     pub(crate) fn pairs<'py>(
-        function: &str,
         starts: &Bound<'py, PyAny>,
         goals: &Bound<'py, PyAny>,
-        wishes: Option<&Bound<'py, PyDict>>,
+        keywords: Keywords,
     ) -> PyResult<Self> {
-        let keywords = Keywords::read(function, wishes, WISHES)?;
         let (starts, goals) = (Points::read("starts", starts)?, Points::read("goals", goals)?);
         let is_one = |ends: &Points| matches!(ends, Points::One(_));
         let has_single = is_one(&starts) || is_one(&goals);

@@ -120,6 +120,27 @@ impl Field {
         self.planes(&rows_array(py, flat, 2)?)
     }
 
+    /// The distance of a vertex to the nearest source.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : tuple of int
+    ///     (row, column).
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     In cells, the number that `distances` has there; ``inf`` where no path leads, and outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows([".#.", "..."]).field((0, 0), k=2).get((0, 2))
+    /// 4.0
+    fn get(&self, point: &Bound<'_, PyAny>) -> PyResult<f64> {
+        Ok(self.inner.get(vertex("point", point)?).unwrap_or(f64::INFINITY))
+    }
+
     /// The shortest path from a vertex to the nearest source.
     ///
     /// Parameters

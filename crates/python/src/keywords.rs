@@ -36,6 +36,9 @@ fn known(function: &str, takes: Takes) -> String {
     let own: &[&str] = match function {
         "path" => &["points"],
         "find" => &["points", "counters"],
+        "find_except" => &["blocked", "free", "free_ends", "points", "counters"],
+        "search" => &["points", "trace"],
+        "disc" => &["meters"],
         "prepare" => &["threads", "progress"],
         "paths" => &["points", "threads", "progress", "invalid"],
         "distances" if takes == WISHES => &["threads", "progress", "invalid"],
@@ -104,6 +107,16 @@ impl Keywords {
         let limits = self.call.wishes().limits();
         let limits = match watch {
             Some(interruption) => interruption.watch(limits, self.timeout()),
+            None => limits,
+        };
+        self.call.wishes().request(start.as_slice(), goal.as_slice(), limits)
+    }
+
+    /// The request for a path between points, whose time limit runs from the call on, whatever comes between.
+    pub(crate) fn timed_request(&self, start: &Points, goal: &Points) -> Request {
+        let limits = self.call.wishes().limits();
+        let limits = match self.timeout() {
+            Some((begin, most)) => limits.deadline(move || begin.elapsed().as_secs_f64() >= most),
             None => limits,
         };
         self.call.wishes().request(start.as_slice(), goal.as_slice(), limits)

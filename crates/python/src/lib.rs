@@ -3,8 +3,8 @@
 //!
 //! - `arguments`: what a call was given: points, numbers, the keywords of motion, wishes and options. Each
 //!   mistake names its argument.
-//! - `grid`, `index`, `field`, `world`: the classes. All are frozen, so threads share them.
-//! - `answer`, `paths`: what `find` and batches answer.
+//! - `grid`, `index`, `field`, `world`, `scenario`: the classes. All are frozen, so threads share them.
+//! - `answer`, `paths`, `spaced`: what `find` and batches answer, and points along a path.
 //! - `arrays`: maps from arrays, and arrays from paths.
 //! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
 //! - `errors`: the library's errors as exceptions.
@@ -12,8 +12,8 @@
 //! # Points
 //!
 //! Python has (row, column), the library (x, y). They are exchanged where a point comes in (`arguments`),
-//! where it goes out (`arrays`; in `field`, `world` and `moves` beside the values they make), and in the text
-//! of an error (`errors`).
+//! where it goes out (`arrays`; in `field`, `world`, `spaced` and `moves` beside the values they make), and
+//! in the text of an error (`errors`).
 //!
 //! # Time
 //!
@@ -38,4 +38,6 @@ mod index;
 mod keywords;
 mod module;
 mod paths;
+mod scenario;
+mod spaced;
 mod world;

@@ -9,10 +9,12 @@ mod _mediant {
     use crate::{
         answer::Answer,
         field::Field,
-        grid::Grid,
-        index::Index,
+        grid::{Disc, Grid},
+        index::{Index, Search},
         keywords::{bound, moves},
         paths::Paths,
+        scenario::Scenario,
+        spaced::spaced,
         world::World,
     };
 

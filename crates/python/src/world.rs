@@ -1,16 +1,34 @@
 //! Where a map is in the world.
 
-use mediant::{Vertex, files::WorldFrame};
-use pyo3::prelude::*;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use mediant::{
+    Map, Vertex,
+    files::{WorldError, WorldFrame},
+};
+use pyo3::{prelude::*, types::PyTuple};
 
 use crate::{
-    arguments::{Points, number, word},
+    arguments::{Points, integer, number, word},
     arrays::rows_array,
+    errors::{argument, instead, raised_for, wrong_type},
+    grid::place,
 };
 
 /// Where a map is in the world: `Grid.world`.
 ///
-/// Grids of ROS maps and of occupancy messages have one, and those of arrays with a ``resolution``.
+/// Grids of ROS maps and of occupancy messages have one, and those of arrays with a ``resolution``. Others
+/// get one that is made by hand: ``Grid(array, world=world)``, `Grid.with_world`.
+///
+/// Parameters
+/// ----------
+/// resolution : float
+///     The side of a cell, in meters.
+/// origin : tuple of float
+///     The lower left corner of the map, below the last row: x and y in meters, and its turn in radians,
+///     counterclockwise, which may be left out; (0, 0) by default.
+/// shape : tuple of int
+///     The number of rows and columns of the map: `Grid.shape`.
 ///
 /// Attributes
 /// ----------
@@ -18,11 +36,25 @@ use crate::{
 ///     The side of a cell, in meters.
 /// origin : tuple of float
 ///     The lower left corner of the map: x and y in meters, and its turn in radians.
+/// shape : tuple of int
+///     The number of rows and columns of the map.
+///
+/// Raises
+/// ------
+/// ArgumentError
+///     For a resolution or an origin that places no map.
+/// MapError
+///     For a shape that no map has.
 ///
 /// Examples
 /// --------
-/// >>> import pathlib, tempfile
 /// >>> import mediant
+/// >>> mediant.World(0.05, (-1, -0.5), shape=(20, 40)).vertex_at(-0.99, -0.49)
+/// (19, 0)
+///
+/// That of a ROS map:
+///
+/// >>> import pathlib, tempfile
 /// >>> folder = pathlib.Path(tempfile.mkdtemp())
 /// >>> _ = (folder / "room.pgm").write_text("P2 4 3 255 " + "254 " * 12)
 /// >>> _ = (folder / "room.yaml").write_text(
@@ -40,6 +72,54 @@ pub(crate) struct World {
 
 #[pymethods]
 impl World {
+    #[new]
+    #[pyo3(
+        signature = (resolution, origin = None, *, shape),
+        text_signature = "(resolution, origin=(0.0, 0.0, 0.0), *, shape)"
+    )]
+    fn by_hand(
+        resolution: &Bound<'_, PyAny>,
+        origin: Option<&Bound<'_, PyAny>>,
+        shape: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let resolution = number("resolution", resolution)?;
+        let origin = origin.map_or(Ok([0.0; 3]), place)?;
+        let [rows, columns] = sides(shape)?;
+        let frame = WorldFrame::new(resolution, origin, columns, rows).map_err(|error| match error {
+            WorldError::Origin { .. } => argument("origin", &error.to_string()),
+            WorldError::Size(error) => raised_for("shape", error),
+            error => argument("resolution", &error.to_string()),
+        })?;
+        Ok(Self { frame })
+    }
+
+    /// The number of rows and columns of the map.
+    #[getter]
+    const fn shape(&self) -> (u32, u32) {
+        (self.frame.height(), self.frame.width())
+    }
+
+    /// A length in meters, in cells: for radii, limits, tolerances and spacings.
+    ///
+    /// Parameters
+    /// ----------
+    /// meters : float
+    ///     The length.
+    ///
+    /// Returns
+    /// -------
+    /// float
+    ///     It divided by the resolution.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.World(0.5, shape=(2, 2)).cells(3)
+    /// 6.0
+    fn cells(&self, meters: &Bound<'_, PyAny>) -> PyResult<f64> {
+        Ok(self.frame.cells(number("meters", meters)?))
+    }
+
     /// The side of a cell, in meters.
     #[getter]
     const fn resolution(&self) -> f64 {
@@ -117,9 +197,66 @@ impl World {
         }
     }
 
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<Self>().is_ok_and(|other| self.frame == other.get().frame)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        let [x, y, _] = self.frame.origin();
+        // Zeros of both signs are equal.
+        [self.frame.resolution(), x + 0.0, y + 0.0].map(f64::to_bits).hash(&mut hasher);
+        self.shape().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    /// By its numbers, for pickle.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let frame = slf.get().frame;
+        let state = (frame.resolution(), frame.origin(), frame.height(), frame.width());
+        Ok((slf.get_type().getattr("_of_state")?, state.into_pyobject(slf.py())?))
+    }
+
+    /// The world of a state that `__reduce__` gave.
+    #[staticmethod]
+    fn _of_state(resolution: f64, origin: [f64; 3], rows: u32, columns: u32) -> PyResult<Self> {
+        let frame = WorldFrame::new(resolution, origin, columns, rows);
+        Ok(Self { frame: frame.map_err(|error| argument("world", &error.to_string()))? })
+    }
+
     fn __repr__(&self) -> String {
         format!("<mediant.World {} m a cell, origin {:?}>", self.frame.resolution(), self.frame.origin())
     }
+}
+
+/// The number of rows and columns.
+fn sides(shape: &Bound<'_, PyAny>) -> PyResult<[u32; 2]> {
+    let expected = "the number of rows and columns";
+    let wrong = |cause| instead(shape.py(), cause, wrong_type("shape", expected, shape));
+    let mut sides = Vec::new();
+    for item in shape.try_iter().map_err(wrong)?.take(3) {
+        sides.push(u32::try_from(integer("shape", &item?, 0)?).unwrap_or(u32::MAX));
+    }
+    <[u32; 2]>::try_from(sides).map_err(|_| argument("shape", &format!("expected {expected}")))
+}
+
+/// The place in the world of a map, as an argument names it; `None` for none.
+pub(crate) fn placed(world: &Bound<'_, PyAny>, map: &Map) -> PyResult<Option<WorldFrame>> {
+    if world.is_none() {
+        return Ok(None);
+    }
+    let Ok(given) = world.cast::<World>() else { return Err(wrong_type("world", "a World or None", world)) };
+    let (frame, size) = (given.get().frame, (map.width(), map.height()));
+    if (frame.width(), frame.height()) == size {
+        return Ok(Some(frame));
+    }
+    let (columns, rows) = size;
+    let text = format!(
+        "expected that of a map of {rows} × {columns} cells, found one of {} × {}",
+        frame.height(),
+        frame.width()
+    );
+    Err(argument("world", &text))
 }
 
 fn kind(value: Option<&Bound<'_, PyAny>>) -> PyResult<mediant::PlacementKind> {

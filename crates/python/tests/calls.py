@@ -112,12 +112,14 @@ class Things:
     """What is called, and good values of its parameters."""
 
     ROWS = (".........", "..#......", "..#..#...", "..#..##..", ".....#...", ".........")
+    SCENARIO = b"version 1\n0 room.map 9 6 0 0 8 5 10.5\n"
 
     def __init__(self, folder):
         self.folder = folder
         self.grid = mediant.Grid.from_rows(self.ROWS)
         self.index = self.grid.prepare("hpa", side=4)
         self.index.save(folder / "index")
+        (folder / "room.scen").write_bytes(self.SCENARIO)
         (folder / "room.pgm").write_text("P2 4 3 255 " + "254 " * 12)
         lines = ["image: room.pgm", "resolution: 0.5", "origin: [1, 2, 0]", "negate: 0"]
         (folder / "room.yaml").write_text(
@@ -129,6 +131,8 @@ class Things:
             "Paths": self.index.paths((0, 0), [(1, 1), (5, 8), (0, 3)]),
             "Field": self.grid.field((0, 1)),
             "World": mediant.Grid.open(folder / "room.yaml").world,
+            "Disc": self.grid.disc(0.7),
+            "Scenario": mediant.Scenario.from_bytes(self.SCENARIO),
         }
 
     def function(self, call):
@@ -137,6 +141,8 @@ class Things:
             return getattr(mediant, call.owner)
         if not call.owner:
             return getattr(mediant, call.name)
+        if call.owner == "Search":  # A step changes it.
+            return getattr(self.index.search((0, 0), (5, 8), trace=True), call.name)
         return getattr(getattr(mediant, call.owner) if call.is_static else self.owners[call.owner], call.name)
 
     def good_call(self, call, mistaken):
@@ -144,7 +150,7 @@ class Things:
         arguments = {p.name: self.good(call, p) for p in call.parameters if p.is_required}
         if call.name == "__new__" and {"above", "below", "values"} & set(mistaken):
             arguments["array"] = np.arange(12).reshape(3, 4)
-        if call.name == "for_disc" and "meters" not in mistaken:
+        if call.name in ("for_disc", "disc") and "meters" not in mistaken:
             arguments["radius"] = 1.5  # One of the two is needed.
         engines = [TAKERS[name] for name in mistaken if name in TAKERS]
         if engines and any(p.name == "engine" for p in call.parameters):
@@ -177,9 +183,20 @@ class Things:
             "engine": "astar",
             "values": [1, 3],
             "side": 2,
+            "cells": [(0, 0), (1, 2)],
+            "shape": (3, 4),
+            "world": mediant.World(0.5, shape=(6, 9)),
         }
         if "PathLike" in parameter.type:
-            return self.folder / {"open": "room.pgm", "load": "index", "save": "saved"}[call.name]
+            names = {"load": "index", "save": "saved", "write_trace": "trace"}
+            names["open"] = "room.scen" if call.owner == "Scenario" else "room.pgm"
+            return self.folder / names[call.name]
+        if call.name == "find_except" and parameter.name in {"blocked", "free"}:
+            return [(0, 2)]
+        if call.name == "edit_cells" and parameter.name == "blocked":
+            return [True, False]
+        if call.name == "from_bytes":
+            return self.SCENARIO
         if parameter.name in {"free", "blocked"} and parameter.type == "str | None":
             return {"free": ".", "blocked": "#"}[parameter.name]
         if parameter.name in by_name and not parameter.type.startswith("PathPoints"):

@@ -44,7 +44,7 @@ def test_calls_are_found():
     """The stub has all public callables of the module."""
     public = {
         (owner, name)
-        for owner in ("Grid", "Index", "Paths", "Field", "World", "Answer")
+        for owner in ("Grid", "Disc", "Index", "Search", "Paths", "Field", "World", "Scenario", "Answer")
         for name, value in vars(getattr(mediant, owner)).items()
         if callable(value) and not name.startswith("_")
     }
@@ -153,6 +153,10 @@ def same(a, b):
         return same(a.distances(), b.distances())
     if isinstance(a, mediant.Index):
         return a.setup == b.setup and a.grid == b.grid
+    if isinstance(a, mediant.Disc):
+        return a.grid == b.grid and a.obstacles == b.obstacles
+    if isinstance(a, mediant.Search):
+        return same(a.finish(), b.finish())
     if isinstance(a, mediant.Answer):
         return same((a.status, a.distance, a.path, a.best), (b.status, b.distance, b.path, b.best))
     return bool(a == b)

@@ -34,9 +34,9 @@ thread_local! {
     static STATUSES: [JsValue; Status::ALL.len()] = Status::ALL.map(|status| status.name().into());
 }
 
-/// The answer of an engine with this guarantee as an object. It is made key by key through setters, which
-/// take a fifth of the time of keys that are texts: a query can take microseconds.
-pub(crate) fn answer(outcome: &Outcome, guarantee: Guarantee) -> JsAnswer {
+/// The answer of an engine with this guarantee under these rules as an object. It is made key by key through
+/// setters, which take a fifth of the time of keys that are texts: a query can take microseconds.
+pub(crate) fn answer(outcome: &Outcome, (guarantee, rules): (Guarantee, Rules)) -> JsAnswer {
     let (told, answer) = (Answer::new(outcome, guarantee), Object::new().unchecked_into::<JsAnswer>());
     STATUSES.with(|statuses| answer.set_status(&statuses[told.status() as usize]));
     if let Some(path) = told.path() {
@@ -44,6 +44,9 @@ pub(crate) fn answer(outcome: &Outcome, guarantee: Guarantee) -> JsAnswer {
     }
     answer.set_distance(told.distance());
     answer.set_lower_bound(told.lower_bound());
+    if let Some(bound) = told.any_angle_lower_bound(rules) {
+        answer.set_any_angle_lower_bound(bound);
+    }
     if let Some(limit) = told.stopped_by() {
         answer.set_stopped_by(limit.name());
     }

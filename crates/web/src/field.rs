@@ -87,6 +87,16 @@ impl Field {
         Ok(self.inner.path_from(point("at", at)?).as_ref().map(flat))
     }
 
+    /// The source that is nearest to a vertex; undefined where no path leads.
+    #[wasm_bindgen(js_name = nearestSource, unchecked_return_type = "Point | undefined")]
+    pub fn nearest_source(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let source = self.inner.nearest_source(point("at", at)?);
+        Ok(source.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
+    }
+
     /// A second handle to the same field, for arguments of calls.
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {

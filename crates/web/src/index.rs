@@ -1,7 +1,7 @@
 //! Indexes: the preparation of an engine.
 
 use js_sys::Uint8Array;
-use mediant::{Change, Index as Inner, Levels};
+use mediant::{Change, Index as Inner, Levels, files::WorldFrame};
 use wasm_bindgen::prelude::*;
 
 use crate::{
@@ -18,6 +18,7 @@ use crate::{
 #[wasm_bindgen]
 pub struct Index {
     pub(crate) inner: Inner,
+    pub(crate) world: Option<WorldFrame>,
 }
 
 #[wasm_bindgen]
@@ -94,7 +95,7 @@ impl Index {
     /// The space that it belongs to.
     #[wasm_bindgen(getter)]
     pub fn space(&self) -> Space {
-        Space { inner: self.inner.space().clone() }
+        Space { inner: self.inner.space().clone(), world: self.world }
     }
 
     /// A planner on this index, with scratch memory of its own.
@@ -135,7 +136,7 @@ impl Index {
         let space: Space = object("space", "Space", space)?;
         space.check_room("the index", memory::INDEX)?;
         let change = Change::between(self.inner.space(), &space.inner).map_err(raised)?;
-        Ok(Self { inner: self.inner.repair(&change).map_err(raised)? })
+        Ok(Self { inner: self.inner.repair(&change).map_err(raised)?, world: space.world })
     }
 
     /// The index as bytes, for `Space.load`.

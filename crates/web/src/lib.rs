@@ -3,8 +3,8 @@
 //!
 //! - `arguments`: what a call was given: points, numbers, bytes, objects of our classes; `keywords`: objects
 //!   of motion, wishes and options. Each mistake names its argument.
-//! - `grid`, `space`, `index`, `goals`, `planner`, `trace` with `posthoc`, `field`, `picture`: the classes;
-//!   `module`: what needs no map.
+//! - `grid`, `space`, `index`, `goals`, `planner`, `trace` with `posthoc`, `field`, `picture`, `world`,
+//!   `scenario`: the classes; `module`: what needs no map.
 //! - `answer`: what goes out; `types`: the types of plain objects, for `mediant.d.ts`.
 //! - `errors`: the library's errors as those of JavaScript; `memory`: whether there is room.
 //! - `clock`: the time, which the library does not read.
@@ -44,16 +44,20 @@ mod module;
 mod picture;
 mod planner;
 mod posthoc;
+mod scenario;
 mod space;
 mod trace;
 mod types;
+mod world;
 
 pub use field::Field;
 pub use goals::Goals;
 pub use grid::Grid;
 pub use index::Index;
-pub use module::{bound, check_setup, engines, moves, version};
+pub use module::{bound, check_setup, engines, moves, spaced, version};
 pub use picture::Picture;
 pub use planner::Planner;
+pub use scenario::Scenario;
 pub use space::Space;
 pub use trace::Trace;
+pub use world::World;

@@ -1,13 +1,17 @@
 //! Functions that need no map.
 
-use js_sys::{Array, Int32Array};
-use mediant::{ConfiguredEngine, Engine, Guarantee, Motion, Setup, call::Spelling, moves::Neighborhood};
+use js_sys::{Array, Float64Array, Int32Array};
+use mediant::{
+    ConfiguredEngine, Engine, ErrorCode, Guarantee, Motion, Path, Setup, call::Spelling, moves::Neighborhood,
+};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer::object_of,
-    errors::{argument, raised},
+    arguments::{number, path_points},
+    errors::{argument, coded, raised},
     keywords::{Keywords, MOTION, OPTIONS, call_error, read_engine},
+    memory,
     types::JsEngines,
 };
 
@@ -39,6 +43,29 @@ pub fn bound(
     let Motion { k, rules, .. } = Keywords::read("motion", motion, MOTION)?.motion()?;
     let guarantee = k.finite().map_or(Guarantee::OptimalAnyAngle, Guarantee::Optimal);
     Ok(guarantee.bound(rules))
+}
+
+/// Points along a path, x, y, …, evenly spaced: so many cells apart as measured along it. The first one is
+/// the start, the last one the end: the last step is shorter unless the length is a multiple of the spacing.
+///
+/// ```js
+/// spaced(Int32Array.of(0, 0, 2, 0, 2, 1), 1.25); // Float64Array [0, 0, 1.25, 0, 2, 0.5, 2, 1]
+/// ```
+///
+/// @throws MediantError `number` for a spacing of 0 or less, `memory` if there is no room for the points.
+#[wasm_bindgen]
+pub fn spaced(
+    #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "number")] spacing: &JsValue,
+) -> Result<Float64Array, JsValue> {
+    let (path, spacing) = (Path::new(path_points("path", path)?), number("spacing", spacing)?);
+    let points = path.points(spacing).map_err(|error| coded(ErrorCode::Number, &error.to_string()))?;
+    // It saturates.
+    let most = ((path.cost() / spacing) as u64).saturating_add(3);
+    memory::check("the points", most, 16)?;
+    let mut flat = Vec::with_capacity(2 * most as usize);
+    flat.extend(points.flat_map(|(x, y)| [x, y]));
+    Ok(Float64Array::from(&flat[..]))
 }
 
 /// All engines, with what each can do.

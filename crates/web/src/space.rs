@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use js_sys::{Function, Int32Array, JsString};
-use mediant::{Demand, Limits, Map, Motion, Path, Progress, Space as Inner, Vertex};
+use mediant::{Demand, Limits, Map, Motion, Path, Progress, Space as Inner, Vertex, files::WorldFrame};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
@@ -22,6 +22,7 @@ use crate::{
 #[wasm_bindgen]
 pub struct Space {
     pub(crate) inner: Inner,
+    pub(crate) world: Option<WorldFrame>,
 }
 
 /// The points that `of` finds along a path, as x, y, ….
@@ -43,10 +44,10 @@ pub(crate) fn vertices(map: &Map) -> u64 {
 }
 
 impl Space {
-    /// A map with rules of motion.
-    pub(crate) fn of(map: &Map, motion: Motion) -> Result<Self, JsValue> {
+    /// A map at its place in the world, with rules of motion.
+    pub(crate) fn of(map: &Map, motion: Motion, world: Option<WorldFrame>) -> Result<Self, JsValue> {
         memory::check("the space", vertices(map), memory::SPACE)?;
-        Ok(Self { inner: map.space(motion).map_err(raised)? })
+        Ok(Self { inner: map.space(motion).map_err(raised)?, world })
     }
 
     /// Checks that there is room for so many bytes a vertex.
@@ -60,7 +61,7 @@ impl Space {
     /// The map.
     #[wasm_bindgen(getter)]
     pub fn grid(&self) -> Grid {
-        Grid::new(self.inner.map().clone())
+        Grid { map: self.inner.map().clone(), world: self.world }
     }
 
     /// The rules of motion and the k, in full.
@@ -161,7 +162,7 @@ impl Space {
     ) -> Result<Self, JsValue> {
         let edit = Edit::read([x, y, width, height], blocked)?;
         let map = self.inner.map().edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?;
-        Self::of(&map, self.inner.motion())
+        Self::of(&map, self.inner.motion(), self.world)
     }
 
     /// Prepares what an engine needs; by default the engine that `engine()` names. `progress` is called with
@@ -196,7 +197,8 @@ impl Space {
         let limits = Limits::new().deadline(has_thrown);
         let index = self.inner.within(&limits).prepare_with_progress(setup.engine, &tell);
         listening.end()?;
-        Ok(Index { inner: index.map_err(raised)?.with_smoothing(setup.smoothing) })
+        let inner = index.map_err(raised)?.with_smoothing(setup.smoothing);
+        Ok(Index { inner, world: self.world })
     }
 
     /// The index of bytes that `Index.toBytes` gave for the same map and motion.
@@ -212,7 +214,7 @@ impl Space {
         let index = self.inner.index_from_bytes(bytes("bytes", index)?).map_err(raised)?;
         let call = keywords.call;
         let index = if call.has_options() { index.with_call(&call).map_err(raised)? } else { index };
-        Ok(Index { inner: index })
+        Ok(Index { inner: index, world: self.world })
     }
 
     /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
@@ -268,7 +270,7 @@ impl Space {
     /// A second handle to the same space, for arguments of calls.
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {
-        Self { inner: self.inner.clone() }
+        Self { inner: self.inner.clone(), world: self.world }
     }
 }
 

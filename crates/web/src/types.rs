@@ -160,6 +160,23 @@ export interface MapOptions extends TileOptions {
   readonly ros?: 1 | 2;
 }
 
+/** The radius of a disc: in cells, or in meters for a grid with a world. */
+export type Radius = number | { readonly meters: number };
+
+/** Cells that count otherwise than on the map, for one query. */
+export interface Exceptions {
+  /** Cells that count as blocked: other agents in the way. */
+  readonly blocked?: Points;
+  /** Cells that count as free. One that is among `blocked`, too, is free. */
+  readonly free?: Points;
+  /**
+   * Whether starts and goals count as free, whatever else is said of their cells: the map has the cell of an
+   * agent as blocked. Between corners this is the cell (x, y) of a vertex none of whose cells is free, on the
+   * right and lower edge of the map the cell before it.
+   */
+  readonly freeEnds?: boolean;
+}
+
 /** The answer to a query. */
 export interface Answer {
   /**
@@ -178,6 +195,11 @@ export interface Answer {
    * `Infinity` where there is no path, also of a nearest answer.
    */
   readonly lowerBound: number;
+  /**
+   * The certificate of `path`, in cells: no path at any angle between its two ends under the same rules is
+   * shorter. It is the length of the path divided by `Index.bound`, or the straight line if that is longer.
+   */
+  readonly anyAngleLowerBound?: number;
   /** The limit that stopped the search. */
   readonly stoppedBy?: Limit;
   /** Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one. */
@@ -246,6 +268,8 @@ extern "C" {
     pub(crate) fn set_distance(this: &JsAnswer, distance: f64);
     #[wasm_bindgen(method, setter, js_name = lowerBound)]
     pub(crate) fn set_lower_bound(this: &JsAnswer, lower_bound: f64);
+    #[wasm_bindgen(method, setter, js_name = anyAngleLowerBound)]
+    pub(crate) fn set_any_angle_lower_bound(this: &JsAnswer, lower_bound: f64);
     #[wasm_bindgen(method, setter, js_name = stoppedBy)]
     pub(crate) fn set_stopped_by(this: &JsAnswer, limit: &str);
     #[wasm_bindgen(method, setter)]

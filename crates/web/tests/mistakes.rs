@@ -5,7 +5,7 @@ mod js;
 
 use js::{call, class, get, json, ok, text, thrown};
 use js_sys::{Function, Object, Reflect, Uint8Array};
-use mediant_web::{Grid, Picture, Trace};
+use mediant_web::{Grid, Picture, Scenario, Trace, World};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -265,12 +265,18 @@ fn odd_values_everywhere() {
     let picture = JsValue::from(Picture::new(&grid, &"corner".into()).expect("a picture"));
     ok(&picture, "largestSide", &[64.into()]);
     let goals = ok(&index, "goals", &[json("[[8, 3], [0, 0]]")]);
-    let ours = [&grid, &space, &planner, &trace, &field, &goals].map(Clone::clone);
+    let size = [get(&grid, "width"), get(&grid, "height")];
+    let world = World::new(&size[0], &size[1], &0.5.into(), &json("[1, 2]")).map(JsValue::from);
+    let world = world.expect("a world");
+    let scenario = b"version 1\n0 a 8 3 0 0 7 0 11\n";
+    let scenario = JsValue::from(Scenario::read(&Uint8Array::from(&scenario[..])).expect("a scenario"));
+    let ours = [&grid, &space, &planner, &trace, &field, &goals, &world].map(Clone::clone);
     let odd: Vec<JsValue> = odd_values().into_iter().chain(ours).collect();
     let class = class(&grid);
+    let more = [&world, &scenario];
     let objects = [&grid, &class, &space, &index, &planner, &field, &trace, &picture, &goals];
     let mut calls = 0_u32;
-    for object in objects {
+    for object in objects.into_iter().chain(more) {
         for method in methods(object) {
             for (number, first) in odd.iter().enumerate() {
                 let other = |step: usize| odd[(number * step + step) % odd.len()].clone();

@@ -46,6 +46,8 @@ pub(super) fn keywords(description: &Description) -> String {
     for parameter in description.of("engine") {
         _ = writeln!(text, "    {}: {} | Literal[\"auto\"] | None", parameter.snake(), alias(parameter));
     }
+    // The formatter wants it after a class.
+    text.push('\n');
     text
 }
 

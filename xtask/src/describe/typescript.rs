@@ -44,11 +44,10 @@ pub(super) fn page(description: &Description) -> String {
     for engine in &description.engines {
         let key =
             if engine.name.contains('-') { format!("\"{}\"", engine.name) } else { engine.name.clone() };
-        _ = writeln!(
-            text,
-            "  {key}: {{\n    name: \"{}\",\n    how: \"{}\",\n  }},",
-            engine.title, engine.how
-        );
+        // A space ends each part but the last.
+        let how = wrapped(&engine.how, 96).join(" \" +\n      \"");
+        let begin = if how.contains('\n') { "\n      " } else { " " };
+        _ = writeln!(text, "  {key}: {{\n    name: \"{}\",\n    how:{begin}\"{how}\",\n  }},", engine.title);
     }
     let words = |name: &str| {
         let parameter = description.parameters.iter().find(|parameter| parameter.name == name);

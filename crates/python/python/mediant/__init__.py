@@ -21,7 +21,21 @@ from __future__ import annotations
 
 from typing import Final
 
-from ._mediant import Answer, Field, Grid, Index, Paths, World, __version__, bound, moves
+from ._mediant import (
+    Answer,
+    Disc,
+    Field,
+    Grid,
+    Index,
+    Paths,
+    Scenario,
+    Search,
+    World,
+    __version__,
+    bound,
+    moves,
+    spaced,
+)
 from .errors import (
     ArgumentError,
     BrokenPathError,
@@ -52,6 +66,7 @@ __all__ = [
     "Answer",
     "ArgumentError",
     "BrokenPathError",
+    "Disc",
     "Field",
     "FileError",
     "Grid",
@@ -65,8 +80,11 @@ __all__ = [
     "OptionError",
     "Paths",
     "QueryError",
+    "Scenario",
+    "Search",
     "World",
     "__version__",
     "bound",
     "moves",
+    "spaced",
 ]

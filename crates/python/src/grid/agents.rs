@@ -209,7 +209,11 @@ impl Grid {
 
 impl Grid {
     /// A radius in cells, of one that is given in cells or in meters.
-    fn radius(&self, cells: Option<&Bound<'_, PyAny>>, meters: Option<&Bound<'_, PyAny>>) -> PyResult<f64> {
+    pub(super) fn radius(
+        &self,
+        cells: Option<&Bound<'_, PyAny>>,
+        meters: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<f64> {
         match (cells, meters, self.shared.world) {
             (Some(cells), None, _) => positive("radius", cells),
             (None, Some(meters), Some(world)) => Ok(world.cells(positive("meters", meters)?)),

@@ -3,7 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, Identity, Limits, Map, PlacementKind, Rectangle, Rules,
+    CornerRule, Identity, Limits, Map, PlacementKind, Rules,
     files::{Fraction, MapOptions, RosVersion, Tiles, WorldFrame},
 };
 use mediant_formats::Picture;
@@ -14,25 +14,26 @@ use pyo3::{
 
 use super::{Grid, occupancy::frame};
 use crate::{
-    arguments::{file, flag, integer, number, point, text, word},
-    arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, patch, png_of},
+    arguments::{file, flag, integer, number, text, word},
+    arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, png_of},
     background::detached,
-    errors::{argument, exception, instead, raised, raised_for, wrong_type},
+    errors::{argument, instead, raised, raised_for, wrong_type},
     keywords::unknown_keyword,
-    world::World,
+    world::{World, placed},
 };
 
 /// The keywords of `Grid`, for an error.
-const KEYWORDS: &str = "above, below, values, resolution, origin";
+const KEYWORDS: &str = "above, below, values, resolution, origin, world";
 
 #[pymethods]
 impl Grid {
     #[new]
     #[pyo3(
         signature = (array, *, above = None, below = None, values = None, resolution = None, origin = None,
-            **others),
-        text_signature = "(array, *, above=None, below=None, values=None, resolution=None, origin=None)"
+            world = None, **others),
+        text_signature = "(array, *, above=None, below=None, values=None, resolution=None, origin=None, world=None)"
     )]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn of_array<'py>(
         array: &Bound<'py, PyAny>,
         above: Option<Bound<'py, PyAny>>,
@@ -40,6 +41,7 @@ impl Grid {
         values: Option<Bound<'py, PyAny>>,
         resolution: Option<&Bound<'py, PyAny>>,
         origin: Option<&Bound<'py, PyAny>>,
+        world: Option<&Bound<'py, PyAny>>,
         others: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
         if let Some((name, _)) = others.and_then(|others| others.iter().next()) {
@@ -47,7 +49,10 @@ impl Grid {
         }
         let map = map_of(array, &Criteria { above, below, values })?;
         let world = match (resolution, origin) {
-            (None, None) => None,
+            (None, None) => world.map_or(Ok(None), |world| placed(world, &map))?,
+            _ if world.is_some_and(|world| !world.is_none()) => {
+                return Err(argument("world", "it has a resolution and an origin: leave these out"));
+            }
             (None, Some(_)) => {
                 return Err(argument("origin", "it needs the side of a cell in meters too: resolution="));
             }
@@ -238,54 +243,6 @@ impl Grid {
         }
         let array = self.to_numpy(py)?;
         dtype.map_or(Ok(array.clone()), |dtype| array.call_method1("astype", (dtype,)))
-    }
-
-    /// This grid with other cells in a rectangle. This one stays as it is.
-    ///
-    /// Parameters
-    /// ----------
-    /// at : tuple of int
-    ///     (row, column) of the rectangle's top left cell.
-    /// blocked : array_like of bool
-    ///     The new cells, shape (rows, columns) of the rectangle; True is blocked.
-    ///
-    /// Returns
-    /// -------
-    /// Grid
-    ///     The next version.
-    ///
-    /// Raises
-    /// ------
-    /// MapError
-    ///     For a rectangle that is not wholly on the map.
-    ///
-    /// Examples
-    /// --------
-    /// >>> import mediant
-    /// >>> grid = mediant.Grid.from_rows(["...", "..."])
-    /// >>> grid.edit((0, 1), [[True], [True]]).distance((0, 0), (0, 2))
-    /// inf
-    fn edit(&self, at: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let (at, (cells, rows, columns)) = (point("at", at)?, patch("blocked", blocked)?);
-        let (width, height) = (self.map().width() as usize, self.map().height() as usize);
-        let fits = |first: i32, count: usize, side: usize| {
-            usize::try_from(first).is_ok_and(|first| first < side && count <= side - first)
-        };
-        if !(fits(at.x, columns, width) && fits(at.y, rows, height)) {
-            let text = format!(
-                "at: a rectangle of {rows} × {columns} cells at ({}, {}) is not wholly on the map of \
-                 {height} × {width} cells",
-                at.y, at.x
-            );
-            return Err(exception("MapError", &text, "edit-outside"));
-        }
-        if cells.is_empty() {
-            return Ok(self.clone());
-        }
-        let (x, y) = (at.x as u32, at.y as u32);
-        let rectangle = Rectangle { x, y, width: columns as u32, height: rows as u32 };
-        let cell = |column: u32, row: u32| cells[(row - y) as usize * columns + (column - x) as usize];
-        Ok(Self::new(self.map().edit(rectangle, cell).map_err(raised)?, self.shared.world))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {

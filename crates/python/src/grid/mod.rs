@@ -1,6 +1,9 @@
 //! Grids: maps with their place in the world.
 
 mod agents;
+mod batches;
+mod disc;
+mod edits;
 mod fields;
 mod making;
 mod motion;
@@ -12,6 +15,7 @@ use std::sync::Arc;
 use mediant::{Error, Limits, Map, Motion, Planners, Space, files::WorldFrame};
 use pyo3::prelude::*;
 
+pub(crate) use self::{disc::Disc, edits::cells_on, occupancy::place};
 use crate::{
     background::{detached, in_pool, on_thread},
     errors::raised,
@@ -40,6 +44,8 @@ use crate::{
 ///     The lower left corner of the map, below the last row: x and y in meters, and its turn in radians,
 ///     which may be left out; (0, 0) by default. For cells whose first row is the lowest, give
 ///     ``array[::-1]``; for those of an occupancy message there is `from_occupancy`.
+/// world : World, optional
+///     The place in the world of a map of this shape, in place of ``resolution`` and ``origin``.
 ///
 /// Attributes
 /// ----------
@@ -56,7 +62,7 @@ use crate::{
 ///     For a side of 0, or of more than 32768 cells.
 /// ArgumentError
 ///     For an array of another number of dimensions, or with values that are no number; and for a resolution
-///     or an origin that places no map.
+///     or an origin that places no map, or the world of a map of another shape.
 /// TypeError
 ///     For numbers without a criterion, and for arrays that hold neither numbers nor bool.
 ///
@@ -109,11 +115,21 @@ impl Grid {
 
     /// The planners of a call, kept for the next one. Within, [`Error::Stopped`] by its time limit.
     fn planners(&self, py: Python<'_>, keywords: &Keywords) -> PyResult<Result<Arc<Planners>, Error>> {
+        self.planners_within(py, keywords, keywords.preparation())
+    }
+
+    /// The planners of a call, whose preparation has limits of its own.
+    fn planners_within(
+        &self,
+        py: Python<'_>,
+        keywords: &Keywords,
+        limits: Limits,
+    ) -> PyResult<Result<Arc<Planners>, Error>> {
         let setup = self.map().setup(&keywords.call).map_err(call_error)?;
         if let Some(planners) = self.map().kept_planners(&setup) {
             return Ok(Ok(planners));
         }
-        let (map, limits) = (self.map().clone(), keywords.preparation());
+        let map = self.map().clone();
         let prepare = move |limits: &Limits| map.keep_planners(&setup, limits);
         let planners = if setup.index_version().is_err() {
             detached(py, self.cells(), limits, prepare)?

@@ -118,7 +118,7 @@ pub(super) fn frame(
 }
 
 /// x and y in meters, and a turn in radians that may be left out.
-fn place(origin: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
+pub(crate) fn place(origin: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
     let expected = "(x, y) in meters, or (x, y, yaw) with the turn in radians";
     let wrong = |cause| instead(origin.py(), cause, wrong_type("origin", expected, origin));
     let mut numbers = Vec::new();

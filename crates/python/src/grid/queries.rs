@@ -446,8 +446,8 @@ impl Grid {
         let by = if let Error::Stopped { by, .. } = error { *by } else { Limit::Timeout };
         let start_at = Points::read("start", start)?.as_slice().first().copied().unwrap_or_default();
         let outcome = Outcome::Stopped(Stopped::before_search(by, start_at));
-        let (points, placement) = (PathPoints::read(points)?, keywords.motion()?.rules.placement());
-        answer::before_search(start.py(), &outcome, points, placement, error)
+        let (points, rules) = (PathPoints::read(points)?, keywords.motion()?.rules);
+        answer::before_search(start.py(), &outcome, points, rules, error)
     }
 
     /// An index that was read, with the options of a call.

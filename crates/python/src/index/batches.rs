@@ -7,6 +7,7 @@ use super::Index;
 use crate::{
     arrays::PathPoints,
     batch::{self, Batch, NearestArrays, Queries},
+    keywords::{Keywords, WISHES},
     paths::Paths,
 };
 
@@ -66,7 +67,7 @@ impl Index {
         invalid: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Paths> {
-        let queries = Queries::pairs("paths", starts, goals, wishes)?;
+        let queries = Queries::pairs(starts, goals, Keywords::read("paths", wishes, WISHES)?)?;
         let batch = Batch::read(threads, progress, invalid)?;
         batch::paths(py, &self.planners, queries, PathPoints::read(points)?, &batch)
     }
@@ -115,7 +116,7 @@ impl Index {
         invalid: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let queries = Queries::pairs("distances", starts, goals, wishes)?;
+        let queries = Queries::pairs(starts, goals, Keywords::read("distances", wishes, WISHES)?)?;
         batch::distances(py, &self.planners, queries, &Batch::read(threads, progress, invalid)?)
     }
 

@@ -1,15 +1,18 @@
 //! Indexes: the preparation of an engine.
 
 mod batches;
+mod exceptions;
 mod queries;
 mod saved;
+mod search;
+mod trace;
 
 use std::sync::Arc;
 
 use mediant::{Guarantee, Index as Prepared, K, Levels, Planners, Setup};
 use pyo3::prelude::*;
 
-pub(crate) use self::queries::Asked;
+pub(crate) use self::{queries::Asked, search::Search};
 use crate::grid::Grid;
 
 /// The preparation of an engine on a grid: paths in microseconds.

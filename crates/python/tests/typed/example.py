@@ -16,6 +16,18 @@ part: list[NDArray[np.int32] | None] = paths[:1]
 numbers: NDArray[np.float64] = index.table([(0, 0)], [(4, 8)])
 status: str = index.find((0, 0), (4, 8), nearest=True).status
 shape: tuple[int, int] = grid.field((0, 0), placement="corner").shape
+distance = grid.field((0, 0)).get((1, 1))
+many: mediant.Paths = grid.paths([(0, 0)], (4, 8), k=4, max_cost=20, invalid="none")
+least: float | None = grid.find((0, 0), (4, 8)).any_angle_lower_bound
+search: mediant.Search = index.search((0, 0), (4, 8), trace=True, timeout=1.0)
+answer: mediant.Answer | None = search.step(10)
+best: NDArray[np.int32] | None = search.best
+spaced: NDArray[np.float64] = mediant.spaced([(0, 0), (4, 8)], 0.5)
+world: mediant.World = mediant.World(0.05, (1, 2), shape=grid.shape)
+scenario: mediant.Scenario = mediant.Scenario.from_bytes(b"version 1\n")
+starts: NDArray[np.int32] = scenario.starts
+disc: mediant.Disc = mediant.Grid(blocked, world=world).disc(meters=0.1).edit((0, 0), [[True]])
+around: mediant.Answer = index.find_except((0, 0), (4, 8), blocked=[(1, 1)], free_ends=True)
 bound: float | None = mediant.bound(4, placement="corner")
 again: mediant.Grid = mediant.Grid(np.array([[1.5]]), above=1, values=(2, 3.5)).edit((0, 0), [[True]])
 for one in paths:
@@ -33,5 +45,7 @@ grid.path((0, 0))  # type: ignore[call-arg]
 grid.path((0, 0), (4, 8), corners="some")  # type: ignore[arg-type]
 grid.prepare("a-star")  # type: ignore[arg-type]
 index.path((0, 0), (4, 8), k=3)  # type: ignore[call-arg]
+index.search((0, 0), (4, 8), k=3)  # type: ignore[call-arg]
+mediant.World(1)  # type: ignore[call-arg]
 index.engine = "astar"  # type: ignore[misc]
 path.tolist()  # type: ignore[union-attr]

@@ -5,6 +5,7 @@ import init, {
   bound,
   checkSetup,
   type EngineInfo,
+  type Exceptions,
   engines,
   type Field,
   type Goals,
@@ -22,12 +23,16 @@ import init, {
   type Planner,
   type Point,
   type Points,
+  type Radius,
+  Scenario,
   type Space,
+  spaced,
   Trace,
   version,
   type WholeMotion,
   type WidestPath,
   type Wishes,
+  World,
 } from "mediant";
 
 const bytes = new Uint8Array();
@@ -36,9 +41,8 @@ initSync({ module: bytes });
 
 const text: string = version();
 const all: EngineInfo[] = engines();
-const able = all.map(
-  ({ name, title, how, placements, maxK, any, guarantee, paper, index, options }) =>
-    `${name} ${title} ${how} ${placements.join()} ${maxK.toFixed()} ${any} ${guarantee} ${paper} ${index} ${options.join()}`,
+const able = all.map(({ name, title, how, placements, maxK, any, guarantee, paper, index, options }) =>
+  [name, title, how, placements.join(), maxK.toFixed(), any, guarantee, paper, index, options.join()].join(),
 );
 const star: Int32Array = moves(4);
 
@@ -54,6 +58,25 @@ const rows = Grid.fromRows(["..", ".#"], { free: ".", blocked: "#" });
 const grid = new Grid(2, 2, new Uint8Array(4)).edit(0, 0, 1, 1, Uint8Array.of(1));
 const clearance: Float64Array = grid.clearance();
 const smaller: Grid = grid.forDisc(1.5, any).forSquare(2);
+const world: World = new World(2, 2, 0.05, [1, 2]);
+const placed: Grid = grid
+  .withWorld(world)
+  .editCells([[0, 0]], true)
+  .editCells([0, 1], Uint8Array.of(1));
+const radius: Radius = { meters: 0.02 };
+const fitted: Grid = placed.forDisc(radius, motion);
+const sizes: number[] = [fitted.width, world.width, world.height];
+const place: [number, number, number] = placed.world?.origin ?? [world.resolution, world.cells(1), 0];
+const where: Point | undefined = world.vertexAt(1.02, 2.02, "corner");
+const meters: Float64Array = world.pointOf([0, 0]);
+const scenario: Scenario = Scenario.read(bytes);
+scenario.check(grid);
+const instances: [Int32Array, Int32Array, Float64Array] = [
+  scenario.starts(),
+  scenario.goals(),
+  scenario.lengths(),
+];
+const groups: [number, Uint32Array, string[]] = [scenario.length, scenario.buckets(), scenario.maps()];
 const facts = [grid.width, grid.height, grid.id, grid.cells().length, grid.isBlocked(0, 1), grid.toMap()];
 
 const from: Point = [0, 0];
@@ -110,6 +133,9 @@ const trace = new Trace(true);
 const answer: Answer = planner.find(from, to, wishes, trace);
 if (answer.status === "stopped") facts.push(answer.stoppedBy ?? "", answer.best?.length ?? 0);
 facts.push(answer.distance, answer.lowerBound, answer.path?.length ?? 0);
+facts.push(answer.anyAngleLowerBound ?? 0, answer.path ? spaced(answer.path, 0.5).length : 0);
+const exceptions: Exceptions = { blocked: [[1, 1]], free: [0, 1], freeEnds: true };
+const around: Answer = planner.findExcept(from, to, exceptions, wishes);
 planner.begin(from, to, wishes);
 let next: Answer | undefined;
 while (!(next = planner.step(10, trace)))
@@ -138,6 +164,7 @@ facts.push(
   field.height,
   field.get(from),
   field.next(from)?.[0] ?? 0,
+  field.nearestSource(from)?.[0] ?? 0,
   field.pathFrom(from)?.length ?? 0,
 );
 
@@ -162,6 +189,7 @@ planner.free();
 
 export {
   able,
+  around,
   arrays,
   because,
   clearance,
@@ -169,12 +197,18 @@ export {
   factor,
   facts,
   files,
+  groups,
   height,
+  instances,
   last,
+  meters,
   next,
+  place,
   seen,
+  sizes,
   smaller,
   text,
+  where,
   whole,
   why,
   width,

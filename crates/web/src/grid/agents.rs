@@ -7,8 +7,8 @@ use wasm_bindgen::prelude::*;
 use super::Grid;
 use crate::{
     arguments::{integer_32, positive, room},
-    errors::raised,
-    keywords::{Keywords, MOTION},
+    errors::{argument, raised},
+    keywords::{Keywords, MOTION, entries, unknown_key},
 };
 
 #[wasm_bindgen]
@@ -27,19 +27,25 @@ impl Grid {
         Ok(Float64Array::from(&distances[..]))
     }
 
-    /// The grid of a disc, whose radius is in cells: free where the disc fits. The paths of its center are
-    /// those of a point on that grid, and on each path over this motion the disc keeps its radius.
+    /// The grid of a disc, whose radius is in cells, or in meters for a grid with a world: free where the
+    /// disc fits. The paths of its center are those of a point on that grid, and on each path over this
+    /// motion the disc keeps its radius.
     ///
-    /// @throws MediantError `number` for a radius that is not finite.
+    /// ```js
+    /// grid.forDisc(1.5); // in cells
+    /// grid.forDisc({ meters: 0.3 }, { k: "any" });
+    /// ```
+    ///
+    /// @throws MediantError `number` for a radius that is not finite, `argument` for one in meters where
+    /// there is no world.
     #[wasm_bindgen(js_name = forDisc)]
     pub fn for_disc(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "number")] radius: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Radius")] radius: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Self, JsValue> {
         let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
-        let map = self.map.for_disc(positive("radius", radius)?, motion);
-        Ok(Self::new(map.map_err(raised)?))
+        Ok(self.instead(self.map.for_disc(self.radius(radius)?, motion).map_err(raised)?))
     }
 
     /// The grid of an agent that covers n × n cells. Its place is its top left cell: free where all its cells
@@ -51,6 +57,29 @@ impl Grid {
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] n: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(Self::new(self.map.for_square(integer_32("n", n, 1)?).map_err(raised)?))
+        Ok(self.instead(self.map.for_square(integer_32("n", n, 1)?).map_err(raised)?))
+    }
+}
+
+impl Grid {
+    /// A radius in cells: a number, or an object with one in meters.
+    fn radius(&self, value: &JsValue) -> Result<f64, JsValue> {
+        if !value.is_object() {
+            return positive("radius", value);
+        }
+        let mut meters = None;
+        for (key, value) in entries("radius", value)? {
+            match key.as_str() {
+                "meters" => meters = Some(positive("meters", &value)?),
+                _ => return Err(unknown_key("radius", &key, "meters")),
+            }
+        }
+        match (meters, self.world) {
+            (Some(meters), Some(world)) => Ok(world.cells(meters)),
+            (Some(_), None) => {
+                Err(argument("meters", "this grid has no place in the world: give the radius in cells"))
+            }
+            (None, _) => Err(argument("radius", "give it in cells, or as { meters }")),
+        }
     }
 }

@@ -5,14 +5,15 @@ mod queries;
 mod reading;
 
 use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
-use mediant::{Grid as Bits, Map, Rectangle, errors::NO_COSTS};
+use mediant::{Grid as Bits, Map, Rectangle, errors::NO_COSTS, files::WorldFrame};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
-    arguments::{bytes, integer, integer_32, room, text},
+    arguments::{Points, bytes, flag, integer, integer_32, object, room, text},
     errors::{argument, raised, wrong_type},
     keywords::{Keywords, MOTION},
     space::Space,
+    world::World,
 };
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is in column x from the left and row y from
@@ -27,11 +28,17 @@ use crate::{
 #[wasm_bindgen]
 pub struct Grid {
     pub(crate) map: Map,
+    pub(crate) world: Option<WorldFrame>,
 }
 
 impl Grid {
     pub(crate) fn new(map: Map) -> Self {
-        Self { map }
+        Self { map, world: None }
+    }
+
+    /// Another map at the same place in the world.
+    fn instead(&self, map: Map) -> Self {
+        Self { map, world: self.world }
     }
 }
 
@@ -49,7 +56,7 @@ impl Grid {
     ) -> Result<Self, JsValue> {
         let (width, height) = (integer("width", width, 0)?, integer("height", height, 0)?);
         Bits::check_size(width, height).map_err(raised)?;
-        let cells = cells_of(blocked, width * height)?;
+        let cells = cells_of(blocked, (SIDES, width * height))?;
         let (width, height) = (width as u32, height as u32);
         let map = Map::from_fn(width, height, |x, y| cells[y as usize * width as usize + x as usize] != 0);
         Ok(Self::new(map.map_err(raised)?))
@@ -93,6 +100,37 @@ impl Grid {
         self.map.id().to_string()
     }
 
+    /// Where the map is in the world, if it is a ROS map or was told by `withWorld`.
+    #[wasm_bindgen(getter)]
+    pub fn world(&self) -> Option<World> {
+        self.world.map(|frame| World { frame })
+    }
+
+    /// This map with another place in the world; without one if it is left out. Edits and maps of agents keep
+    /// it.
+    ///
+    /// @throws MediantError `argument` for the place of a map of another size.
+    #[wasm_bindgen(js_name = withWorld)]
+    pub fn with_world(
+        &self,
+        #[wasm_bindgen(unchecked_optional_param_type = "World")] world: &JsValue,
+    ) -> Result<Self, JsValue> {
+        if world.is_undefined() || world.is_null() {
+            return Ok(Self::new(self.map.clone()));
+        }
+        let World { frame } = object("world", "World", world)?;
+        let (width, height) = (self.map.width(), self.map.height());
+        if (frame.width(), frame.height()) != (width, height) {
+            let text = format!(
+                "expected that of a map of {width} × {height} cells, found one of {} × {}",
+                frame.width(),
+                frame.height()
+            );
+            return Err(argument("world", &text));
+        }
+        Ok(Self { map: self.map.clone(), world: Some(frame) })
+    }
+
     /// The cells, row by row; 1 is blocked.
     pub fn cells(&self) -> Result<Uint8Array, JsValue> {
         let (width, height) = (self.map.width() as usize, self.map.height() as usize);
@@ -132,7 +170,33 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
     ) -> Result<Self, JsValue> {
         let edit = Edit::read([x, y, width, height], blocked)?;
-        Ok(Self::new(self.map.edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?))
+        Ok(self.instead(self.map.edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?))
+    }
+
+    /// This map with other scattered cells: whether they are blocked is one value for all, or 0 or 1 for
+    /// each. The last word on a cell counts. This map stays as it is.
+    ///
+    /// ```js
+    /// grid.editCells([[0, 0], [3, 1]], true);
+    /// ```
+    ///
+    /// @throws MediantError `edit-outside` for a cell outside the map, `argument` for another number of
+    /// values, and for one that is neither 0 nor 1.
+    #[wasm_bindgen(js_name = editCells)]
+    pub fn edit_cells(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Points")] cells: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "boolean | Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
+    ) -> Result<Self, JsValue> {
+        let cells = Points::read("cells", cells)?.into_vec();
+        let each = match blocked.as_bool() {
+            Some(_) => Vec::new(),
+            None => cells_of(blocked, ("one for each cell", cells.len() as u64))?,
+        };
+        let all = each.is_empty() && !cells.is_empty() && flag("blocked", blocked)?;
+        let value = |index: usize| each.get(index).map_or(all, |&cell| cell != 0);
+        let cells = cells.into_iter().enumerate().map(|(index, cell)| (cell, value(index)));
+        Ok(self.instead(self.map.edit_cells(cells).map_err(raised)?))
     }
 
     /// This map with rules of motion: what is searched. By default eight directions between the centers of
@@ -148,23 +212,26 @@ impl Grid {
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Space, JsValue> {
         let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
-        Space::of(&self.map, motion)
+        Space::of(&self.map, motion, self.world)
     }
 
     /// A second handle to the same map, for arguments of calls.
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {
-        Self { map: self.map.clone() }
+        Self { map: self.map.clone(), world: self.world }
     }
 }
+
+/// How many cells a rectangle has.
+const SIDES: &str = "width × height";
 
 /// Why cells are 0 or 1, and how to make them.
 fn no_costs() -> String {
     format!("{NO_COSTS}; make cells, for instance Uint8Array.from(costs, (cost) => Number(cost > limit))")
 }
 
-/// The cells of an argument, of which there must be so many.
-fn cells_of(blocked: &JsValue, expected: u64) -> Result<Vec<u8>, JsValue> {
+/// The cells of an argument, of which there must be so many, for this reason.
+fn cells_of(blocked: &JsValue, (why, expected): (&str, u64)) -> Result<Vec<u8>, JsValue> {
     let is_other = ArrayBuffer::is_view(blocked)
         && !blocked.is_instance_of::<Uint8Array>()
         && !blocked.is_instance_of::<Uint8ClampedArray>();
@@ -174,7 +241,7 @@ fn cells_of(blocked: &JsValue, expected: u64) -> Result<Vec<u8>, JsValue> {
     }
     let cells = bytes("blocked", blocked)?;
     if cells.len() as u64 != expected {
-        let wrong = format!("expected width × height = {expected} cells, found {}", cells.len());
+        let wrong = format!("expected {why} = {expected} cells, found {}", cells.len());
         return Err(argument("blocked", &wrong));
     }
     if let Some(at) = cells.iter().position(|&cell| cell > 1) {
@@ -196,7 +263,7 @@ impl Edit {
     pub(crate) fn read([x, y, width, height]: [&JsValue; 4], blocked: &JsValue) -> Result<Self, JsValue> {
         let (x, y) = (integer_32("x", x, 0)?, integer_32("y", y, 0)?);
         let (width, height) = (integer("width", width, 0)?, integer("height", height, 0)?);
-        let cells = cells_of(blocked, width.saturating_mul(height))?;
+        let cells = cells_of(blocked, (SIDES, width.saturating_mul(height)))?;
         // A side is larger only if the other one is 0.
         let [width, height] = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
         Ok(Self { at: Rectangle { x, y, width, height }, cells })

@@ -1,7 +1,7 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Error, ErrorCode, Guarantee, Outcome, Stopped};
+use mediant::{Error, ErrorCode, Guarantee, Outcome, Rules, Stopped};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
@@ -58,8 +58,8 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<JsAnswer, JsValue> {
-        let (outcome, guarantee) = self.answered(start, goal, how)?;
-        Ok(answer(&outcome, guarantee))
+        let (outcome, promised) = self.answered(start, goal, how)?;
+        Ok(answer(&outcome, promised))
     }
 
     /// The setup of a call of `path` or `find`: the engine, k, rule and options in one text. The same text,
@@ -76,13 +76,13 @@ impl Grid {
 }
 
 impl Grid {
-    /// The outcome of a call, and what its engine guarantees.
+    /// The outcome of a call, and what its engine guarantees under which rules.
     fn answered(
         &self,
         start: &JsValue,
         goal: &JsValue,
         how: &JsValue,
-    ) -> Result<(Outcome, Guarantee), JsValue> {
+    ) -> Result<(Outcome, (Guarantee, Rules)), JsValue> {
         let keywords = Keywords::read("how", how, ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         // The time of the call begins before what it prepares.
@@ -96,11 +96,12 @@ impl Grid {
             Ok(planners) => planners,
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                return Ok((Outcome::Stopped(Stopped::before_search(by, start)), Guarantee::Suboptimal));
+                let outcome = Outcome::Stopped(Stopped::before_search(by, start));
+                return Ok((outcome, (Guarantee::Suboptimal, setup.rules)));
             }
             Err(error) => return Err(raised(error)),
         };
         planners.try_make_ready().map_err(raised)?;
-        Ok((planners.find(request).map_err(raised)?, setup.guarantee()))
+        Ok((planners.find(request).map_err(raised)?, (setup.guarantee(), setup.rules)))
     }
 }

@@ -40,8 +40,8 @@ impl Grid {
     ) -> Result<Self, JsValue> {
         let (files, options) = (Files::read(name, file, files)?, map_options(options)?);
         let read = Map::open_in(&files.name, &options, |path| files.get(path));
-        let (map, _) = read.map_err(|error| files.raised(error))?;
-        Ok(Self::new(map))
+        let (map, world) = read.map_err(|error| files.raised(error))?;
+        Ok(Self { map, world })
     }
 
     /// The width and the height that the header of a map states, without making the map: so that one that is

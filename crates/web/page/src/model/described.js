@@ -45,7 +45,9 @@ export const ENGINES = {
   },
   subgoal: {
     name: "Subgoal graph",
-    how: "Joins two prepared labels, lists of corners at which shortest paths turn, without a search. Where labels would take too much memory, it searches a prepared graph.",
+    how:
+      "Joins two prepared labels, lists of corners at which shortest paths turn, without a search. " +
+      "Where labels would take too much memory, it searches a prepared graph.",
   },
   "subgoal-theta": {
     name: "Sub-Theta*",
