@@ -130,6 +130,7 @@ mod configured;
 pub mod cookbook;
 mod demand;
 mod engine;
+mod engines;
 mod erased;
 mod error;
 pub mod errors;
@@ -140,8 +141,8 @@ mod goals;
 mod heuristic;
 mod index;
 mod limits;
-mod make;
 mod map;
+mod memory_check;
 mod motion;
 mod option;
 mod path_check;
@@ -150,7 +151,6 @@ mod planners;
 #[cfg(doctest)]
 mod readme;
 mod recent;
-mod scratch;
 #[cfg(feature = "serde")]
 mod serialized;
 mod setup;

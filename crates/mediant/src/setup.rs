@@ -89,10 +89,7 @@ impl Setup {
         }
         let placement = rules.placement();
         match capabilities.placements {
-            [needed] if *needed != placement => {
-                let others = Engine::names_where(|kind| kind.capabilities().placements.contains(&placement));
-                Err(SetupError::Placement { engine, needed: *needed, placement, others })
-            }
+            [needed] if *needed != placement => Err(SetupError::placement(engine, *needed, placement)),
             _ if !takes_together(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
             _ => Ok(()),
         }

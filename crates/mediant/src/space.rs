@@ -3,15 +3,16 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, Rectangle, Rules,
-    Vertex,
+    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, PlacementKind,
+    Rectangle, Rules, Vertex,
 };
 use mediant_moves::FiniteK;
 use mediant_search::{End, Query, QueryError, Wavefront};
+use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    setup_error::SetupError, within::NEVER,
+    setup_error::SetupError, shared_rules::Shared, within::NEVER,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -54,6 +55,30 @@ pub(crate) struct Layers<P: Placement> {
     graph: OnceLock<Arc<GridGraph<P>>>,
     /// The free space for paths at any angle, where that has other components.
     any_angle: OnceLock<Arc<FreeSpace<P>>>,
+}
+
+/// A placement of the vertices of a space.
+pub(crate) trait PlacementOfSpace: SubgoalPlacement + Shared {
+    /// What can be searched at this placement, for an engine that takes no other.
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError>;
+}
+
+impl PlacementOfSpace for Centers {
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError> {
+        match space.placed() {
+            Placed::Centers(layers) => Ok(layers),
+            Placed::Corners(_) => Err(SetupError::placement(engine, Self::KIND, PlacementKind::Corner)),
+        }
+    }
+}
+
+impl PlacementOfSpace for Corners {
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError> {
+        match space.placed() {
+            Placed::Corners(layers) => Ok(layers),
+            Placed::Centers(_) => Err(SetupError::placement(engine, Self::KIND, PlacementKind::Center)),
+        }
+    }
 }
 
 impl<P: Placement> Layers<P> {
@@ -101,8 +126,8 @@ impl Map {
     /// ```
     ///
     /// # Errors
-    /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above 12,
-    /// and between centers at any angle.
+    /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above
+    /// 12, and between centers at any angle.
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::new(self, motion.into(), &NEVER)
     }

@@ -1,15 +1,9 @@
 //! Indexes for a map that changed.
 
-use std::sync::Arc;
+use mediant_grid::{Interrupt, Mismatch, Rectangle};
 
-use mediant_grid::{Centers, GridGraph, Interrupt, Mismatch, Rectangle};
-
-use super::{Index, OnGridGraph, Origin, Prepared, Source};
-use crate::{
-    error::Error,
-    space::{Placed, Space},
-    within::NEVER,
-};
+use super::{Index, Origin};
+use crate::{engines::Source, error::Error, space::Space, within::NEVER};
 
 impl Index {
     /// The index for a changed map of the same rules and k. It gives the same answers as one prepared anew.
@@ -44,11 +38,9 @@ impl Index {
         if belongs_to == found {
             return Ok(Self { space: changed.clone(), origin: Origin::Unchanged, ..self.clone() });
         }
-        let repaired = match (&self.prepared, changed.placed(), self.changed_cells(changed)) {
-            (Prepared::Centers(graph, parts), Placed::Centers(layers), Some(at)) => {
-                parts.repaired(graph, layers.graph(graph.k())?, at, interrupt)?
-            }
-            _ => None,
+        let repaired = match self.changed_cells(changed) {
+            Some(at) => self.prepared.repaired(changed, at, interrupt)?,
+            None => None,
         };
         let Some(prepared) = repaired else {
             let source = Source { interrupt, ..self.source() };
@@ -61,25 +53,5 @@ impl Index {
     /// The cells that differ from those of a changed map; `None` if its size differs.
     fn changed_cells(&self, changed: &Space) -> Option<Rectangle> {
         changed.map().grid().difference(self.space.map().grid())
-    }
-}
-
-impl OnGridGraph<Centers> {
-    /// The same on a changed grid graph, of which only the cells of a rectangle differ; `None` for what
-    /// cannot be repaired.
-    fn repaired(
-        &self,
-        before: &Arc<GridGraph<Centers>>,
-        after: &Arc<GridGraph<Centers>>,
-        at: Rectangle,
-        interrupt: &Interrupt,
-    ) -> Result<Option<Prepared>, Error> {
-        let (old, new) = (before.grid(), after.grid());
-        let parts = match self {
-            Self::Clusters(graph) => Self::Clusters(Arc::new(graph.repaired(old, new, at, interrupt)?)),
-            Self::Segments(graph) => Self::Segments(Arc::new(graph.repaired(old, new, at, interrupt)?)),
-            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => return Ok(None),
-        };
-        Ok(Some(Prepared::Centers(Arc::clone(after), parts)))
     }
 }
