@@ -232,12 +232,12 @@ impl Space {
         start: Vertex,
         interrupt: &Interrupt,
     ) -> Result<Vec<(Vertex, f64)>, Error> {
-        let Motion { k, rules, .. } = self.motion();
-        Setup::new(engine, k, rules).check()?;
+        let motion = self.motion();
+        Setup::new(engine, motion).check()?;
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
         }
-        match (engine, self.placed(), k.finite()) {
+        match (engine, self.placed(), motion.k.finite()) {
             (Engine::Dijkstra, ..) => Ok(self.field_of(&[start], f64::INFINITY, interrupt)?.iter().collect()),
             (Engine::Wavefront, Placed::Centers(layers), Some(k)) => {
                 moves(layers.graph(k)?, start, interrupt)
@@ -255,9 +255,9 @@ impl Space {
     /// # Errors
     /// [`Error::Setup`] for an engine that does not take the space's k or rules.
     pub fn make_ready(&self, engine: impl Into<ConfiguredEngine>) -> Result<(), Error> {
-        let (engine, Motion { k, rules, .. }) = (engine.into(), self.motion());
-        Setup::new(engine, k, rules).check()?;
-        if let Some(k) = k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
+        let (engine, motion) = (engine.into(), self.motion());
+        Setup::new(engine, motion).check()?;
+        if let Some(k) = motion.k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
             match self.placed() {
                 Placed::Centers(layers) => _ = layers.graph(k)?,
                 Placed::Corners(layers) => _ = layers.graph(k)?,

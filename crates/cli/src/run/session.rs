@@ -61,7 +61,7 @@ impl Session<'_> {
     /// Answers one query.
     fn answer(&mut self, searcher: &mut Searcher, run: &Run<'_>, item: Item) -> Result<Answer, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
-        let (grid, rules) = (&*map.grid, run.setup.rules);
+        let (grid, rules) = (&*map.grid, run.setup.rules());
         let request = || run.query.request(item.query);
         if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =

@@ -71,7 +71,7 @@ impl EngineIndex for AnyaIndex {
         let Some(dead_ends) = &self.dead_ends else { return Ok(None) };
         let (space, dead_ends) =
             (Arc::clone(&Corners::layers(space, Engine::Anya)?.free), Some(Arc::clone(dead_ends)));
-        shared(Ok(Self { space, k: setup.k, dead_ends })).map(Some)
+        shared(Ok(Self { space, k: setup.k(), dead_ends })).map(Some)
     }
 
     fn is_for_one_path(&self) -> bool {

@@ -151,13 +151,13 @@ pub(crate) fn prepare(
         E::JpsPlus(own) => either!(layers => JumpIndex::by_table(layers.graph(k?)?, own, source)),
         E::Theta(own) => either!(layers => ThetaIndex::new(layers.graph(k?)?, own)),
         E::LazyTheta(own) => either!(layers => ThetaIndex::lazy(layers.graph(k?)?, own)),
-        E::Anya => shared(AnyaIndex::new(&Corners::layers(space, engine)?.free, setup.k, source)),
+        E::Anya => shared(AnyaIndex::new(&Corners::layers(space, engine)?.free, setup.k(), source)),
         E::Subgoal(own) => either!(layers => {
             let substitute = |setup, source: Source<'_>| prepare(setup, space, source);
-            SubgoalIndex::new(own, setup.motion(), &layers.free, (source, None), substitute)
+            SubgoalIndex::new(own, setup.motion, &layers.free, (source, None), substitute)
         }),
         E::SubgoalTheta(own) => {
-            shared(SubgoalThetaIndex::new(own, setup.k, &Corners::layers(space, engine)?.free, source))
+            shared(SubgoalThetaIndex::new(own, setup.k(), &Corners::layers(space, engine)?.free, source))
         }
         E::Hpa(own) => shared(ClusterIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
         E::Chpa(own) => shared(SegmentIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),

@@ -15,7 +15,6 @@ use crate::{
 
 /// A free space with its subgoal graph.
 pub(super) struct SubgoalThetaIndex {
-    own: SubgoalThetaOptions,
     space: Arc<FreeSpace<Corners>>,
     graph: Arc<SubgoalGraph<Corners>>,
 }
@@ -47,7 +46,7 @@ impl SubgoalThetaIndex {
         if own.levels.is_some() || found == Levels::Contracted {
             check_levels(Some(own.levels()), Some(found))?;
         }
-        Ok(Self { own, space: Arc::clone(space), graph })
+        Ok(Self { space: Arc::clone(space), graph })
     }
 }
 

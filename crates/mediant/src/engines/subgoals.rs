@@ -63,7 +63,7 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
             }
             PreparedSubgoals::Contracted(graph) => Kept::Graph(free, Arc::new(graph)),
             PreparedSubgoals::Nothing(identity) => {
-                let setup = Setup::new(substitute_for(motion), motion.k, motion.rules);
+                let setup = Setup::new(substitute_for(motion), motion);
                 Kept::Nothing(identity, substitute(setup, Source { bytes: None, ..source })?)
             }
         };
@@ -168,7 +168,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             shared.map_or_else(|| prepare(setup, space, source), Ok)
         };
         let free = &P::layers(space, Engine::Subgoal)?.free;
-        shared(Self::new(self.own, setup.motion(), free, (source, beside), substitute)).map(Some)
+        shared(Self::new(self.own, setup.motion, free, (source, beside), substitute)).map(Some)
     }
 
     fn as_prepared(&self) -> Option<ConfiguredEngine> {

@@ -132,8 +132,7 @@ impl Index {
         engine: ConfiguredEngine,
         source: Source<'_>,
     ) -> Result<Self, Error> {
-        let Motion { k, rules, .. } = space.motion();
-        let setup = Setup::new(engine, k, rules);
+        let setup = Setup::new(engine, space.motion());
         setup.check()?;
         let prepared = engines::prepare(setup, space, source)?;
         let space = space.clone();
@@ -165,9 +164,9 @@ impl Index {
     }
 
     pub(crate) fn prepared_for_k(&self, k: K, interrupt: &Interrupt) -> Result<Self, Error> {
-        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules), interrupt)?;
+        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules()), interrupt)?;
         let source = Source { interrupt, ..self.source() };
-        let setup = Setup { k, ..self.setup };
+        let setup = Setup { motion: space.motion(), ..self.setup };
         setup.check()?;
         let prepared = match self.prepared.for_k(setup, &space, source)? {
             Some(prepared) => prepared,

@@ -74,7 +74,7 @@ impl Setup {
     /// [`Error::Setup`] for a setup whose parts do not fit together.
     pub fn space(&self, map: &Map) -> Result<Space, Error> {
         self.check()?;
-        map.space(self.motion())
+        map.space(self.motion)
     }
 
     /// Prepares the setup's engine in a space.
@@ -82,7 +82,7 @@ impl Setup {
     /// # Errors
     /// Those of [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
     pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
-        let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
+        let needed = Identity { map: None, rules: self.rules(), k: Some(self.k()) };
         needed.check("the setup", ("the space", space.identity()))?;
         Ok(space.prepare(self.engine)?.with_smoothing(self.smoothing))
     }
@@ -290,7 +290,7 @@ impl Planner {
     /// bound is proven.
     #[must_use]
     pub fn bound(&self) -> Option<f64> {
-        self.guarantee.bound(self.index.setup().rules)
+        self.guarantee.bound(self.index.setup().rules())
     }
 
     /// The index that it searches.

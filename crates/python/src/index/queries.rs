@@ -74,7 +74,7 @@ impl Asked<'_, '_> {
         points: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let points = PathPoints::read(points)?;
-        let placement = self.planners.index().setup().rules.placement();
+        let placement = self.planners.index().setup().rules().placement();
         let outcome = answer::whole(py, self.outcome(&self.ends()?, false)?.0, points, placement)?;
         outcome.path().map(|path| points.array(py, path, placement)).transpose()
     }
@@ -88,7 +88,7 @@ impl Asked<'_, '_> {
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }
         let setup = index.setup();
-        let (outcome, placement) = (self.outcome(&ends, false)?.0, setup.rules.placement());
+        let (outcome, placement) = (self.outcome(&ends, false)?.0, setup.rules().placement());
         let outcome = answer::whole(py, outcome, PathPoints::Waypoints, placement)?;
         Ok(mediant::Answer::new(&outcome, setup.guarantee()).distance())
     }
@@ -104,7 +104,7 @@ impl Asked<'_, '_> {
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
         let (outcome, counters) = self.outcome(&self.ends()?, counters)?;
-        Answer::new(py, &outcome, points, setup.rules.placement(), (setup.guarantee(), counters))
+        Answer::new(py, &outcome, points, setup.rules().placement(), (setup.guarantee(), counters))
     }
 }
 
