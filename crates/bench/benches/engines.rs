@@ -46,7 +46,7 @@ fn main() {
     for engine in ENGINES {
         for (name, grid) in &maps {
             let ks = (2..=8).filter_map(|k| FiniteK::new(k).ok()).map(K::Finite).chain([K::Any]);
-            let setups = ks.flat_map(|k| RULES.map(|rules| Setup::new(engine, k, rules)));
+            let setups = ks.flat_map(|k| RULES.map(|rules| Setup::new(engine, Motion::new(k, rules))));
             for setup in setups.filter(|setup| setup.check().is_ok()) {
                 queries(&mut c, setup, name, grid);
             }
@@ -82,9 +82,9 @@ fn queries(c: &mut Criterion, setup: Setup, map: &str, grid: &Arc<Grid>) {
     let space = setup.space(&Map::from(Arc::clone(grid))).expect("the setup was checked");
     let queries = random_queries(grid, &space);
     let mut planner = setup.prepare(&space).expect("the setup was checked").planner();
-    let mut group = c.benchmark_group(format!("{}/{}/{map}", setup.engine.kind(), setup.rules.placement()));
+    let mut group = c.benchmark_group(format!("{}/{}/{map}", setup.engine.kind(), setup.rules().placement()));
     group.throughput(Throughput::Elements(queries.len() as u64));
-    group.bench_function(BenchmarkId::from_parameter(setup.k), |b| {
+    group.bench_function(BenchmarkId::from_parameter(setup.k()), |b| {
         b.iter(|| queries.iter().for_each(|&query| _ = black_box(planner.find(black_box(query)))));
     });
     group.finish();

@@ -148,7 +148,7 @@ fn promise(competitor: Competitor) -> Option<Optimum> {
     match competitor {
         Competitor::Typed(engine) => promise(Competitor::Ours(engine.setup())),
         Competitor::Ours(setup) | Competitor::Distance(setup) => {
-            setup.optimal_over().map(|k| (k, setup.rules))
+            setup.optimal_over().map(|k| (k, setup.rules()))
         }
         Competitor::Baseline(Baseline::Pathfinding) => Some(SCENARIOS),
         Competitor::Baseline(Baseline::GridPathfinding) => None,

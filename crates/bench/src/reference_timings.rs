@@ -222,7 +222,7 @@ impl ReferenceProgram {
         let optimal = setup.optimal_over().is_some();
         self.optimal == optimal
             && *k == setup.paths()
-            && *placement == setup.rules.placement().to_string()
+            && *placement == setup.rules().placement().to_string()
             && rule.as_ref().map_or(!optimal, |rule| *rule == setup.rule_name())
     }
 }

@@ -40,7 +40,7 @@ impl ReadySpace {
     }
 
     fn serves(&self, setup: Setup) -> bool {
-        self.space.motion() == setup.motion() && self.has_grid_graph == setup.capabilities().grid_graph
+        self.space.motion() == setup.motion && self.has_grid_graph == setup.capabilities().grid_graph
     }
 }
 

@@ -18,7 +18,7 @@ use std::{
 };
 
 use clap::Args;
-use mediant::{Engine, Map, Planner, Setup};
+use mediant::{Engine, Map, Motion, Planner, Setup};
 use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::K;
@@ -100,8 +100,8 @@ impl Relation {
     fn of(setup: Setup) -> Option<Self> {
         match setup.optimal_over() {
             _ if setup.check().is_err() => None,
-            Some(k) => (k == setup.k).then_some(Self::Equal),
-            None => (setup.paths() == setup.k).then_some(Self::AtLeast),
+            Some(k) => (k == setup.k()).then_some(Self::Equal),
+            None => (setup.paths() == setup.k()).then_some(Self::AtLeast),
         }
     }
 }
@@ -235,7 +235,7 @@ fn reference_setup(name: &str, engine: Engine) -> Option<(Setup, &str)> {
         ("corner", _) => (k()?, Rules::Corner(DiagonalGap::Open)),
         _ => return None,
     };
-    Some((Setup::new(engine, k, rules), map))
+    Some((Setup::new(engine, Motion::new(k, rules)), map))
 }
 
 fn against_references(

@@ -94,7 +94,7 @@ impl Choice {
 
     /// For many paths in a space.
     pub(crate) fn for_many_paths(motion: Motion, map: &Map) -> Self {
-        let takes_subgoals = Setup::new(Engine::Subgoal, motion.k, motion.rules).check().is_ok();
+        let takes_subgoals = Setup::new(Engine::Subgoal, motion).check().is_ok();
         if takes_subgoals && cells(map) <= MOST_CELLS_FOR_SUBGOALS {
             let why =
                 "it prepares the map once; with hub labels it then finds most paths in a few microseconds";

@@ -26,8 +26,8 @@ use crate::{
 /// use std::num::NonZeroU32;
 /// use mediant::{ConfiguredEngine, Engine, JumpOptions};
 ///
-/// let options = JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() };
-/// assert_eq!(ConfiguredEngine::Jps(options).kind(), Engine::Jps);
+/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default()
+/// }); assert_eq!(engine.kind(), Engine::Jps);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each variant is documented as an `Engine`")]
@@ -280,8 +280,7 @@ impl ConfiguredEngine {
                 OptionValue::Heuristic(HeuristicName::SquaredEuclidean)
                     if !kind.capabilities().overestimates =>
                 {
-                    let takes = |kind: Engine| kind.capabilities().overestimates;
-                    return refused(option, "heuristic that overestimates", &takes);
+                    return Err(SetupError::overestimates(kind));
                 }
                 OptionValue::Variant(variant) if !kind.capabilities().variants.contains(&variant) => {
                     let takes = |kind: Engine| kind.capabilities().variants.contains(&variant);
@@ -346,20 +345,8 @@ impl ConfiguredEngine {
     pub fn levels(self) -> Option<Levels> {
         match self {
             Self::Subgoal(own) => own.levels,
-            Self::SubgoalTheta(own) => Some(own.levels.unwrap_or(Levels::Number(TWO))),
-            Self::Hpa(HpaOptions { levels: Some(levels @ Levels::Number(_)), .. }) => Some(levels),
-            Self::Hpa(HpaOptions { levels, side, .. }) => {
-                let default = Clustering::default();
-                let number = match levels {
-                    // Each level's clusters are twice as long as those of the one below.
-                    Some(Levels::All) => {
-                        let side = side.map_or(default.side, NonZeroU32::get);
-                        (Clustering::MAX_SIDE / side).checked_ilog2().unwrap_or(0) + 1
-                    }
-                    _ => default.levels,
-                };
-                NonZeroU32::new(number).map(Levels::Number)
-            }
+            Self::SubgoalTheta(own) => Some(own.levels()),
+            Self::Hpa(own) => own.levels(),
             _ => None,
         }
     }
@@ -378,7 +365,7 @@ impl ConfiguredEngine {
     #[must_use]
     pub fn second(self) -> Option<HeuristicName> {
         match self {
-            Self::Chpa(own) => own.second.or_else(|| self.heuristic()),
+            Self::Chpa(own) => Some(own.heuristics()[1]),
             _ => None,
         }
     }
@@ -387,7 +374,7 @@ impl ConfiguredEngine {
     #[must_use]
     pub fn step(self) -> Option<NonZeroU32> {
         match self {
-            Self::Chpa(own) => Some(own.step.unwrap_or(TWO)),
+            Self::Chpa(own) => Some(own.step()),
             _ => None,
         }
     }
@@ -395,20 +382,60 @@ impl ConfiguredEngine {
     /// How many times h_k the path to a checkpoint may cost; `None` for an engine without such a limit.
     #[must_use]
     pub fn detour(self) -> Option<NonZeroU32> {
-        match self.fallback_policy()? {
+        let Self::Chpa(own) = self else { return None };
+        match own.fallback_policy() {
             FallbackPolicy::Complete { detour } => Some(detour),
             FallbackPolicy::Paper => None,
         }
     }
+}
 
-    /// CHPA*'s fallback where its plan fails; `None` for other engines.
-    pub(crate) fn fallback_policy(self) -> Option<FallbackPolicy> {
-        let Self::Chpa(own) = self else { return None };
-        Some(match own.detour {
-            _ if own.variant == Some(Variant::Paper) => FallbackPolicy::Paper,
+impl SubgoalThetaOptions {
+    /// The levels of the graph.
+    pub(crate) fn levels(self) -> Levels {
+        self.levels.unwrap_or(Levels::Number(TWO))
+    }
+}
+
+impl HpaOptions {
+    /// The clusters that they name.
+    pub(crate) fn clustering(self) -> Clustering {
+        let default = Clustering::default();
+        let side = self.side.map_or(default.side, NonZeroU32::get);
+        let levels = match self.levels {
+            Some(Levels::Number(number)) => number.get(),
+            // Each level's clusters are twice as long as those of the one below.
+            Some(Levels::All) => (Clustering::MAX_SIDE / side).checked_ilog2().unwrap_or(0) + 1,
+            _ => default.levels,
+        };
+        Clustering { side, levels }
+    }
+
+    /// The levels of the clusters.
+    fn levels(self) -> Option<Levels> {
+        NonZeroU32::new(self.clustering().levels).map(Levels::Number)
+    }
+}
+
+impl ChpaOptions {
+    /// The heuristics of the first and of the second phase.
+    pub(crate) fn heuristics(self) -> [HeuristicName; 2] {
+        let first = self.heuristic.unwrap_or_default();
+        [first, self.second.unwrap_or(first)]
+    }
+
+    /// Every how many segments there is a checkpoint.
+    pub(crate) fn step(self) -> NonZeroU32 {
+        self.step.unwrap_or(TWO)
+    }
+
+    /// The search's fallback where its plan fails.
+    pub(crate) fn fallback_policy(self) -> FallbackPolicy {
+        match self.detour {
+            _ if self.variant == Some(Variant::Paper) => FallbackPolicy::Paper,
             Some(detour) => FallbackPolicy::Complete { detour },
             None => FallbackPolicy::default(),
-        })
+        }
     }
 }
 

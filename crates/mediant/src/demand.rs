@@ -67,7 +67,7 @@ impl Space {
 impl Demand {
     /// The engine that we would take for this on a map: see [`Space::engine_for`].
     pub(crate) fn choice(self, motion: Motion, map: &Map) -> Result<Choice, SetupError> {
-        let takes = |engine| Setup::new(engine, motion.k, motion.rules).check();
+        let takes = |engine| Setup::new(engine, motion).check();
         match self {
             Self::Paths(0 | 1) => Ok(Choice::for_next_path(motion, map)),
             Self::Paths(2..=MOST_PATHS_WITHOUT_INDEX) => Ok(Choice::for_some_paths(motion)),
@@ -101,7 +101,7 @@ impl Demand {
         let with_options = |engine: Engine| -> Result<ConfiguredEngine, SetupError> {
             let mut engine = ConfiguredEngine::from(engine);
             options.iter().try_for_each(|&(option, value)| engine.set(option, value))?;
-            Setup::new(engine, motion.k, motion.rules).check()?;
+            Setup::new(engine, motion).check()?;
             Ok(engine)
         };
         let choice = self.choice(motion, map)?;

@@ -2,18 +2,12 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt, Vertex};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{End, Query, QueryError, Request, parts::HasFreeSpace};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
-use crate::{
-    error::Error,
-    index::{InFreeSpace, Index, Prepared},
-    make,
-    planner::Planner,
-    within::NEVER,
-};
+use crate::{error::Error, index::Index, planner::Planner, within::NEVER};
 
 /// Goals that many starts ask for, prepared for the indexes of one map, rules and k: made by
 /// [`Index::goals`], asked by [`Planner::distances`] and [`Planner::nearest`]. Clones share them, and all
@@ -82,13 +76,38 @@ impl Index {
             going = interrupt.check("preparing goals");
             going.is_ok()
         });
-        let by_hub = match &self.prepared {
-            Prepared::FreeCenters(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
-            Prepared::FreeCorners(space, InFreeSpace::Labels(labels)) => Some(labels.goals(space, all)?),
-            _ => None,
+        let by_hub = match self.labels() {
+            Some(labels) => Some(labels.goals(&mut { all })?),
+            None => None,
         };
         going?;
         Ok(Goals(Arc::new(Inner { identity: self.identity(), vertices, by_hub })))
+    }
+}
+
+/// Hub labels of either placement.
+pub(crate) trait HasLabels {
+    /// [`HubLabels::goals`].
+    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<mediant_subgoal::Goals, Error>;
+
+    /// A search of distances to many goals.
+    fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error>;
+}
+
+/// A free space with its hub labels.
+#[derive(Clone)]
+pub(crate) struct Labeled<P: SubgoalPlacement> {
+    pub(crate) space: Arc<FreeSpace<P>>,
+    pub(crate) labels: Arc<HubLabels<P>>,
+}
+
+impl<P: SubgoalPlacement> HasLabels for Labeled<P> {
+    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<mediant_subgoal::Goals, Error> {
+        Ok(self.labels.goals(&self.space, goals)?)
+    }
+
+    fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error> {
+        Ok(Box::new(HubLabelSearch::new(Arc::clone(&self.space), Arc::clone(&self.labels))?))
     }
 }
 
@@ -209,7 +228,7 @@ impl Planner {
             return Ok(None);
         };
         if self.asked.search.is_none() {
-            self.asked.search = make::to_goals(self.index())?;
+            self.asked.search = self.index().labels().map(HasLabels::to_goals).transpose()?;
         }
         Ok(Some((by_hub, &mut self.asked)))
     }

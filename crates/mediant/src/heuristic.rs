@@ -4,6 +4,8 @@ use mediant_grid::{GridGraph, Placement, Vector};
 use mediant_moves::Cost;
 use mediant_search::{Euclidean, Heuristic, Hk, Zero};
 
+use crate::{engine::Engine, option::HeuristicName, setup_error::SetupError};
+
 /// One of the heuristics that never overestimate, chosen at run time: every engine but A* is compiled for
 /// this type alone. Its branch for each estimate takes at most 0.4 % of the instructions of a query
 /// (canonical A*, k = 3). Compiling those engines for h_k as well makes the release build of this crate a
@@ -16,6 +18,21 @@ pub(crate) enum Admissible {
     Euclidean,
     /// 0 everywhere.
     Zero,
+}
+
+impl Admissible {
+    /// The heuristic of this name, or by default h_k.
+    ///
+    /// # Errors
+    /// [`SetupError::Option`] for one that overestimates.
+    pub(crate) fn new(engine: Engine, name: Option<HeuristicName>) -> Result<Self, SetupError> {
+        match name.unwrap_or_default() {
+            HeuristicName::Hk => Ok(Self::Hk),
+            HeuristicName::Euclidean => Ok(Self::Euclidean),
+            HeuristicName::Zero => Ok(Self::Zero),
+            HeuristicName::SquaredEuclidean => Err(SetupError::overestimates(engine)),
+        }
+    }
 }
 
 impl Heuristic for Admissible {

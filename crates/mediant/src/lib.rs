@@ -131,6 +131,7 @@ mod configured;
 pub mod cookbook;
 mod demand;
 mod engine;
+mod engines;
 mod erased;
 mod error;
 pub mod errors;
@@ -141,8 +142,8 @@ mod goals;
 mod heuristic;
 mod index;
 mod limits;
-mod make;
 mod map;
+mod memory_check;
 mod motion;
 mod option;
 mod path_check;
@@ -151,7 +152,6 @@ mod planners;
 #[cfg(doctest)]
 mod readme;
 mod recent;
-mod scratch;
 #[cfg(feature = "serde")]
 mod serialized;
 mod setup;

@@ -110,7 +110,7 @@ impl Map {
             return Ok(planners);
         }
         let limits = limits.into();
-        let space = self.keep_space(setup.motion(), &limits)?;
+        let space = self.keep_space(setup.motion, &limits)?;
         let index = space.within(&limits).prepare(setup.engine)?;
         let planners = Arc::new(Planners::new(index.with_smoothing(setup.smoothing)));
         self.recent().planners.put(*setup, &planners);

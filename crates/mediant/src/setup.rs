@@ -13,7 +13,7 @@ use crate::{
     setup_error::SetupError,
 };
 
-/// An engine with its options, its k and rules of motion, and how its paths are smoothed.
+/// An engine with its options, the motion that it searches, and how its paths are smoothed.
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`:
 /// - K is a number or `any`. Left out, it is 3, or `any` for Anya.
@@ -35,10 +35,8 @@ use crate::{
 pub struct Setup {
     /// The engine and its options.
     pub engine: ConfiguredEngine,
-    /// The neighborhood that it searches over.
-    pub k: K,
-    /// The placement and its rule of motion.
-    pub rules: Rules,
+    /// The neighborhood that it searches over, and the rules of motion.
+    pub motion: Motion,
     /// How its paths are smoothed; `None` if they are not.
     pub smoothing: Option<Smoothing>,
 }
@@ -46,19 +44,25 @@ pub struct Setup {
 impl Setup {
     /// A setup without smoothing. Whether its parts fit together, [`check`](Self::check) says.
     #[must_use]
-    pub fn new(engine: impl Into<ConfiguredEngine>, k: impl Into<K>, rules: Rules) -> Self {
-        Self { engine: engine.into(), k: k.into(), rules, smoothing: None }
+    pub fn new(engine: impl Into<ConfiguredEngine>, motion: impl Into<Motion>) -> Self {
+        Self { engine: engine.into(), motion: motion.into(), smoothing: None }
     }
 
-    /// The k and the rules.
+    /// The neighborhood that it searches over.
     #[must_use]
-    pub const fn motion(&self) -> Motion {
-        Motion::of(self.k, self.rules)
+    pub const fn k(&self) -> K {
+        self.motion.k
+    }
+
+    /// The placement and its rule of motion.
+    #[must_use]
+    pub const fn rules(&self) -> Rules {
+        self.motion.rules
     }
 
     /// The finite k of a search on a grid graph.
     pub(crate) fn finite_k(&self) -> Result<FiniteK, SetupError> {
-        self.k.finite().ok_or_else(|| self.needs_finite_k())
+        self.k().finite().ok_or_else(|| self.needs_finite_k())
     }
 
     fn needs_finite_k(&self) -> SetupError {
@@ -79,7 +83,7 @@ impl Setup {
     /// [`SetupError`] for the first of them that it does not take.
     pub fn check(&self) -> Result<(), SetupError> {
         self.engine.check()?;
-        let (engine, k, rules) = (self.engine.kind(), self.k, self.rules);
+        let (engine, k, rules) = (self.engine.kind(), self.k(), self.rules());
         let capabilities = self.capabilities();
         let max = capabilities.max_k;
         match k {
@@ -89,10 +93,7 @@ impl Setup {
         }
         let placement = rules.placement();
         match capabilities.placements {
-            [needed] if *needed != placement => {
-                let others = Engine::names_where(|kind| kind.capabilities().placements.contains(&placement));
-                Err(SetupError::Placement { engine, needed: *needed, placement, others })
-            }
+            [needed] if *needed != placement => Err(SetupError::placement(engine, *needed, placement)),
             _ if !takes_together(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
             _ => Ok(()),
         }
@@ -110,7 +111,7 @@ impl Setup {
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
         use Engine::{Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
-        let unsmoothed = match (self.engine.kind(), self.k) {
+        let unsmoothed = match (self.engine.kind(), self.k()) {
             (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
             _ if self.engine.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
             (Wavefront, k) if k != K::N4 => Guarantee::Suboptimal,
@@ -136,13 +137,13 @@ impl Setup {
     pub fn paths(&self) -> K {
         use Engine::{LazyTheta, SubgoalTheta, Theta};
         let leaves_neighborhood = matches!(self.engine.kind(), Theta | LazyTheta | SubgoalTheta);
-        if leaves_neighborhood || self.smoothing.is_some() { K::Any } else { self.k }
+        if leaves_neighborhood || self.smoothing.is_some() { K::Any } else { self.k() }
     }
 
     /// Whether its paths are as long as the scenario files say: optimal for k = 3 at centers under `never`.
     #[must_use]
     pub fn solves_scenarios(&self) -> bool {
-        self.rules == Rules::Center(CornerRule::Never) && self.optimal_over() == Some(K::N8)
+        self.rules() == Rules::Center(CornerRule::Never) && self.optimal_over() == Some(K::N8)
     }
 }
 

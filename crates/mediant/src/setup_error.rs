@@ -134,6 +134,18 @@ impl SetupError {
         Self::Without { engine, what: "index", others }
     }
 
+    /// The error for a heuristic that overestimates, and an engine that takes none.
+    pub(crate) fn overestimates(engine: Engine) -> Self {
+        let others = Engine::names_where(|kind| kind.capabilities().overestimates);
+        Self::Option { engine, option: "heuristic that overestimates", others }
+    }
+
+    /// The error for a placement that the engine does not take.
+    pub(crate) fn placement(engine: Engine, needed: PlacementKind, placement: PlacementKind) -> Self {
+        let others = Engine::names_where(|kind| kind.capabilities().placements.contains(&placement));
+        Self::Placement { engine, needed, placement, others }
+    }
+
     /// The error for an engine that does not find the distances to all vertices.
     pub(crate) fn without_distances(engine: Engine) -> Self {
         let others = Engine::names_where(|kind| kind.capabilities().distances);

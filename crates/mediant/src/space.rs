@@ -3,15 +3,16 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, Rules, Vertex,
-    uninterrupted,
+    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, PlacementKind,
+    Rules, Vertex, uninterrupted,
 };
 use mediant_moves::FiniteK;
 use mediant_search::{End, Query, QueryError, Wavefront};
+use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    setup_error::SetupError, within::NEVER,
+    setup_error::SetupError, shared_rules::Shared, within::NEVER,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -54,6 +55,30 @@ pub(crate) struct Layers<P: Placement> {
     graph: OnceLock<Arc<GridGraph<P>>>,
     /// The free space for paths at any angle, where that has other components.
     any_angle: OnceLock<Arc<FreeSpace<P>>>,
+}
+
+/// A placement of the vertices of a space.
+pub(crate) trait PlacementOfSpace: SubgoalPlacement + Shared {
+    /// The layers of this placement, for an engine that takes no other.
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError>;
+}
+
+impl PlacementOfSpace for Centers {
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError> {
+        match space.placed() {
+            Placed::Centers(layers) => Ok(layers),
+            Placed::Corners(_) => Err(SetupError::placement(engine, Self::KIND, PlacementKind::Corner)),
+        }
+    }
+}
+
+impl PlacementOfSpace for Corners {
+    fn layers(space: &Space, engine: Engine) -> Result<&Layers<Self>, SetupError> {
+        match space.placed() {
+            Placed::Corners(layers) => Ok(layers),
+            Placed::Centers(_) => Err(SetupError::placement(engine, Self::KIND, PlacementKind::Center)),
+        }
+    }
 }
 
 impl<P: Placement> Layers<P> {
@@ -209,12 +234,12 @@ impl Space {
         start: Vertex,
         interrupt: &Interrupt,
     ) -> Result<Vec<(Vertex, f64)>, Error> {
-        let Motion { k, rules, .. } = self.motion();
-        Setup::new(engine, k, rules).check()?;
+        let motion = self.motion();
+        Setup::new(engine, motion).check()?;
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
         }
-        match (engine, self.placed(), k.finite()) {
+        match (engine, self.placed(), motion.k.finite()) {
             (Engine::Dijkstra, ..) => Ok(self.field_of(&[start], f64::INFINITY, interrupt)?.iter().collect()),
             (Engine::Wavefront, Placed::Centers(layers), Some(k)) => {
                 moves(layers.graph(k)?, start, interrupt)
@@ -232,9 +257,9 @@ impl Space {
     /// # Errors
     /// [`Error::Setup`] for an engine that does not take the space's k or rules.
     pub fn make_ready(&self, engine: impl Into<ConfiguredEngine>) -> Result<(), Error> {
-        let (engine, Motion { k, rules, .. }) = (engine.into(), self.motion());
-        Setup::new(engine, k, rules).check()?;
-        if let Some(k) = k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
+        let (engine, motion) = (engine.into(), self.motion());
+        Setup::new(engine, motion).check()?;
+        if let Some(k) = motion.k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
             match self.placed() {
                 Placed::Centers(layers) => _ = layers.graph(k)?,
                 Placed::Corners(layers) => _ = layers.graph(k)?,

@@ -2,13 +2,12 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::Rules;
-use mediant_moves::K;
 use mediant_search::Smoothing;
 
 use crate::{
     configured::{ConfiguredEngine, HpaOptions},
     engine::Engine,
+    motion::Motion,
     option::{EngineOption, Levels},
     setup::Setup,
 };
@@ -25,19 +24,17 @@ const SMOOTHED: [(Engine, Smoothing); 7] = [
 ];
 
 impl Setup {
-    /// The setups for this k and these rules that test suites try: each engine with its default options and
+    /// The setups for this motion that test suites try: each engine with its default options and
     /// with some values of each option, and a few with smoothing.
     ///
     /// For a finite k the first is A* with h_k. For k = ∞ the first is Anya at corners, and there is none at
     /// centers.
-    pub fn all(k: impl Into<K>, rules: Rules) -> impl Iterator<Item = Self> {
-        let k = k.into();
-        let engines =
-            Engine::ALL.into_iter().flat_map(samples).map(move |engine| Self::new(engine, k, rules));
-        let smoothed = SMOOTHED.into_iter().map(move |(engine, smoothing)| Self {
-            smoothing: Some(smoothing),
-            ..Self::new(engine, k, rules)
-        });
+    pub fn all(motion: impl Into<Motion>) -> impl Iterator<Item = Self> {
+        let motion = motion.into();
+        let engines = Engine::ALL.into_iter().flat_map(samples).map(move |engine| Self::new(engine, motion));
+        let smoothed = SMOOTHED
+            .into_iter()
+            .map(move |(engine, smoothing)| Self { smoothing: Some(smoothing), ..Self::new(engine, motion) });
         engines.chain(smoothed).filter(|setup| setup.check().is_ok())
     }
 }

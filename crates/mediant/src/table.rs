@@ -78,7 +78,7 @@ impl Index {
             ends.iter().try_for_each(|&at| self.space().check_end(end, at))?;
         }
         let columns = goals.len();
-        if self.prepared.has_labels() && self.setup().smoothing.is_none() {
+        if self.labels().is_some() && self.setup().smoothing.is_none() {
             let (goals, planners) = (self.goals(goals.iter().copied())?, Planners::new(self.clone()));
             let row = |row: usize| {
                 stop.check()?;

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_search::Smoothing;
 
-use crate::{capabilities::Capabilities, engine::Engine, option::EngineOption, setup::Setup};
+use crate::{capabilities::Capabilities, engine::Engine, motion::Motion, option::EngineOption, setup::Setup};
 
 /// The error for a text that is no [`Setup`]: the form that was expected, and what is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -29,7 +29,7 @@ impl fmt::Display for Setup {
         let options = self.engine.chosen().into_iter().map(|(option, value)| option.text(value));
         let smoothing = self.smoothing.map(|smoothing| smoothing_name(smoothing).to_owned());
         let options: String = options.chain(smoothing).map(|option| format!(",{option}")).collect();
-        f.pad(&format!("{}:{}:{rule}{options}", self.engine.kind(), self.k))
+        f.pad(&format!("{}:{}:{rule}{options}", self.engine.kind(), self.k()))
     }
 }
 
@@ -37,7 +37,7 @@ impl Setup {
     /// The name of the corner rule or gap rule: `never`, `one`, `always`, `open` or `closed`.
     #[must_use]
     pub fn rule_name(&self) -> String {
-        match self.rules {
+        match self.rules() {
             Rules::Center(rule) => rule.to_string(),
             Rules::Corner(gap) => gap.to_string(),
         }
@@ -66,7 +66,7 @@ impl FromStr for Setup {
         if parts.next().is_some() {
             return Err(error("nothing but options may follow the rule".to_owned()));
         }
-        let mut setup = Self::new(engine, k, rules);
+        let mut setup = Self::new(engine, Motion::new(k, rules));
         for option in options {
             choose(&mut setup, option).map_err(error)?;
         }

@@ -8,19 +8,9 @@ use mediant_search::{Limits, Path, Query};
 use mediant_subgoal::Progress;
 
 use crate::{
-    agent::WidestPath,
-    change::Change,
-    configured::ConfiguredEngine,
-    engine::Engine,
-    error::Error,
-    field::Field,
-    goals::Goals,
-    index::{Index, Source},
-    map::Map,
-    motion::Motion,
-    planner::Planner,
-    space::Space,
-    table::Table,
+    agent::WidestPath, change::Change, configured::ConfiguredEngine, engine::Engine, engines::Source,
+    error::Error, field::Field, goals::Goals, index::Index, map::Map, motion::Motion, planner::Planner,
+    space::Space, table::Table,
 };
 
 /// For work without limits.

@@ -161,7 +161,7 @@ fn on_map(context: &Context<'_>, map: &Map, count: usize) -> Result<Vec<Sums>, E
 fn series_of(setup: &str) -> (String, String) {
     let Ok(parsed) = setup.parse::<Setup>() else { return (setup.to_owned(), String::new()) };
     let options = setup.split_once(',').map_or(String::new(), |(_, options)| format!(", {options}"));
-    let k = match parsed.k.to_string().as_str() {
+    let k = match parsed.k().to_string().as_str() {
         "any" => "∞".to_owned(),
         k => k.to_owned(),
     };
@@ -260,7 +260,7 @@ mod tests {
             assert!(parsed.iter().any(|setup| setup.engine.kind() == engine), "{engine}");
         }
         for ((placement, setup), parsed) in setups().zip(&parsed) {
-            assert_eq!(placement, format!("{}s", parsed.rules.placement()), "{setup}");
+            assert_eq!(placement, format!("{}s", parsed.rules().placement()), "{setup}");
         }
     }
 

@@ -148,7 +148,7 @@ fn on_family(context: &Context<'_>, map: &Map, family: &Family, count: usize) ->
     let queries = if family.is_crossed {
         crossing(&mut rng, family.side, count, connected)
     } else {
-        let rules: Rules = setups[0].rules;
+        let rules: Rules = setups[0].rules();
         random_queries(&mut rng, &grid, rules, count, connected)
     };
     drop(spaces);

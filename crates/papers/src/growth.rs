@@ -172,7 +172,7 @@ fn on_tiles(
     let space = reference
         .space(&mediant::Map::from(Arc::clone(&grid)))
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
-    let rules: Rules = reference.rules;
+    let rules: Rules = reference.rules();
     let connected = |query: mediant_search::Query| space.connected(query.start, query.goal);
     let queries = random_queries(&mut context.rng(map), &grid, rules, count, connected);
     let mut study = Study::new(&grid, &queries, context.passes());

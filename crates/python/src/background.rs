@@ -37,7 +37,7 @@ pub(crate) fn is_watched(index: &Index, is_plain: bool) -> bool {
     }
     let (map, setup) = (index.space().map(), index.setup());
     let vertices = u64::from(map.width()) * u64::from(map.height());
-    let moves = setup.k.finite().map_or(16, |k| 1 << k.get().min(16));
+    let moves = setup.k().finite().map_or(16, |k| 1 << k.get().min(16));
     // An engine that searches in place of the setup's has prepared nothing.
     let is_prepared = setup.index_version().is_ok() && index.searched_by() == setup.engine.kind();
     let saved = if is_prepared { 16 } else { 1 };

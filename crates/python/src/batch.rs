@@ -304,7 +304,7 @@ pub(crate) fn paths(
 ) -> PyResult<Paths> {
     let index = planners.index();
     let (setup, is_watched) = (index.setup(), queries.are_watched(index));
-    let (placement, guarantee) = (setup.rules.placement(), setup.guarantee());
+    let (placement, guarantee) = (setup.rules().placement(), setup.guarantee());
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = planner.find(queries.request(index, is_watched.then_some(flag)));

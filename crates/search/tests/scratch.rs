@@ -7,7 +7,7 @@ use std::{
     sync::Arc,
 };
 
-use mediant::{Engine, Map, Planner, Setup};
+use mediant::{Engine, Map, Motion, Planner, Setup};
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, Placement, PlacementKind, Rules, Vertex,
 };
@@ -71,7 +71,7 @@ fn check_all(k: K, rules: Rules) -> usize {
     let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
     let queries = queries(&grid, rules.placement());
     let is_here = |setup: &Setup| !matches!(setup.engine.kind(), Subgoal | SubgoalTheta | Hpa | Chpa);
-    let setups = Setup::all(k, rules).filter(is_here).filter(|setup| setup.smoothing.is_none());
+    let setups = Setup::all(Motion::new(k, rules)).filter(is_here).filter(|setup| setup.smoothing.is_none());
     setups
         .inspect(|&setup| {
             let planner = setup.planner(&Map::from(Arc::clone(&grid)));

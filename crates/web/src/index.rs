@@ -74,7 +74,7 @@ impl Index {
     #[wasm_bindgen(getter)]
     pub fn bound(&self) -> Option<f64> {
         let setup = self.inner.setup();
-        setup.guarantee().bound(setup.rules)
+        setup.guarantee().bound(setup.rules())
     }
 
     /// The memory that it uses beyond the space, in bytes.

@@ -119,8 +119,8 @@ pub fn check_setup(
     };
     let keywords = Keywords::read("options", options, OPTIONS)?.and("motion", motion, MOTION)?;
     let call = keywords.call.with_engine(Some(engine));
-    let Motion { k, rules, .. } = call.motion().map_err(call_error)?;
-    let wrong = call.configured(engine).and_then(|own| Setup::new(own, k, rules).check());
+    let motion = call.motion().map_err(call_error)?;
+    let wrong = call.configured(engine).and_then(|own| Setup::new(own, motion).check());
     Ok(wrong.err().map(|wrong| wrong.to_string()))
 }
 

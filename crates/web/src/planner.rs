@@ -80,7 +80,7 @@ impl State {
     /// The answer as an object; it is kept for traces.
     fn answered(&mut self, outcome: Result<Outcome, QueryError>) -> Result<JsAnswer, JsValue> {
         let outcome = outcome.map_err(raised)?;
-        let rules = self.inner.index().setup().rules;
+        let rules = self.inner.index().setup().rules();
         let object = answer(&outcome, (self.inner.guarantee(), rules));
         self.last = Some(outcome);
         Ok(object)
@@ -181,7 +181,7 @@ impl Planner {
         let inner = &mut state.inner;
         let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
         memory::check("the search", vertices(inner.index().space().map()), bytes)?;
-        let (request, rules) = (keywords.request(&start, &goal), inner.index().setup().rules);
+        let (request, rules) = (keywords.request(&start, &goal), inner.index().setup().rules());
         let mut other = match inner.except(&request, &exceptions) {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();

@@ -4,7 +4,7 @@
 //! A change of an engine that changes its paths or its counts changes the table: the failure prints the new
 //! one.
 
-use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Outcome, Query, QueryError, Rules, Setup};
+use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Motion, Outcome, Query, QueryError, Rules, Setup};
 use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -73,7 +73,7 @@ impl Digest {
 fn answer(setup: Setup, map: &Map, seed: u64, (digest, asked): (&mut Digest, &mut u64)) {
     let Ok(mut planner) = setup.planner(map) else { return };
     let mut rng = Rng::new(seed);
-    let mut free = || random_free_vertex(&mut rng, map.grid(), setup.rules.placement());
+    let mut free = || random_free_vertex(&mut rng, map.grid(), setup.rules().placement());
     for _ in 0..QUERIES {
         let (Some(start), Some(goal)) = (free(), free()) else { return };
         digest.add(format!("{setup} {seed} {start} {goal}").as_bytes());
@@ -102,7 +102,7 @@ fn table() -> Vec<Row> {
         let map = map(seed);
         // 4 and 5 have no common divisor, so that each k meets each rule.
         let (k, rules) = (KS[seed as usize % KS.len()], RULES[seed as usize % RULES.len()]);
-        for setup in Setup::all(k, rules) {
+        for setup in Setup::all(Motion::new(k, rules)) {
             let engine = setup.engine.kind();
             if let Some((_, digest, asked)) = rows.iter_mut().find(|(of, ..)| *of == engine) {
                 answer(setup, &map, seed, (digest, asked));

@@ -2,9 +2,8 @@
 
 use std::{io, path::Path};
 
-use mediant::{Engine, Error, Map, Planner, Setup};
+use mediant::{Engine, Error, Map, Motion, Planner, Setup};
 use mediant_formats::{Ground, MapFile, Scenario, scenario_tolerance};
-use mediant_grid::{CornerRule, Rules};
 use mediant_moves::FiniteK;
 use mediant_search::Query;
 use mediant_sets::{Manifest, progress, root};
@@ -14,7 +13,7 @@ use super::{Options, Relation, Tally, VerifyError, cost};
 
 /// The setup of an engine for the problem of the scenario files: k = 3 between centers, no corner cut.
 fn scenarios_for(engine: Engine) -> Result<(Setup, Relation), VerifyError> {
-    let setup = Setup::new(engine, FiniteK::N8, Rules::Center(CornerRule::Never));
+    let setup = Setup::new(engine, Motion::centers(FiniteK::N8));
     let unknown = || {
         VerifyError::Wrong(format!(
             "{engine} finds no paths over the moves of k = 3: their costs are not known"

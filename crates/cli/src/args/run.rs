@@ -6,7 +6,7 @@ use std::{
 };
 
 use clap::{ArgGroup, Args, ValueEnum};
-use mediant::{Engine, K, Rules, Setup};
+use mediant::{Engine, K, Motion, Rules, Setup};
 
 use super::{
     flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},
@@ -154,7 +154,7 @@ impl RunArgs {
     /// The setup of `--reference`, under the same rules of motion; `None` without it.
     pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
         let Some(engine) = self.reference else { return Ok(None) };
-        let setup = Setup::new(engine, K::Any, rules);
+        let setup = Setup::new(engine, Motion::new(K::Any, rules));
         match setup.check() {
             Ok(()) => Ok(Some(setup)),
             Err(_) => Err(Failure::NoReference { engine, placement: rules.placement() }),
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn references_are_the_engines_that_promise_the_shortest_any_angle_paths() {
         let promises = |engine: &Engine| {
-            let setup = Setup::new(*engine, K::Any, engine.capabilities().default_rules(K::Any));
+            let setup = Setup::new(*engine, Motion::new(K::Any, engine.capabilities().default_rules(K::Any)));
             setup.check().is_ok() && setup.optimal_over() == Some(K::Any)
         };
         assert!(Engine::ALL.into_iter().filter(promises).eq(REFERENCES));

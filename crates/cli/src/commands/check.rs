@@ -66,7 +66,7 @@ impl Rules {
         let call = &args.motion.0;
         let over = call.k()?.or(said.map(|said| said.over)).unwrap_or(K::Any);
         let motion = match said {
-            Some(Said { setup, .. }) => call.motion_from(Motion::new(setup.k, setup.rules))?,
+            Some(Said { setup, .. }) => call.motion_from(setup.motion)?,
             None => call.motion()?,
         };
         Ok(Self { motion, over })

@@ -4,8 +4,7 @@ use std::io::{self, Write};
 
 use anstyle::RgbColor;
 use mediant::{
-    CornerRule, DiagonalGap, Engine, FiniteK, K, Outcome, PlacementKind, Query, Rules, Setup, Vertex,
-    files::Tiles,
+    Engine, FiniteK, K, Motion, Outcome, PlacementKind, Query, Rules, Setup, Vertex, files::Tiles,
 };
 
 use crate::{
@@ -47,7 +46,7 @@ struct Row {
 
 /// Solves the demo's query in one setup; `None` if there is no path.
 fn solve(setup: Setup, map: &NamedMap, query: Query) -> Result<Option<Row>, Failure> {
-    let Setup { rules, k, .. } = setup;
+    let (k, rules) = (setup.k(), setup.rules());
     let mut planner = setup.planner(&map.to_library())?;
     // The table compares with any-angle paths between corners; no bound to these is known for paths between
     // centers.
@@ -64,14 +63,12 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
     let builtin = Builtin::of_name(&args.name)?;
     let map = NamedMap::bundled(builtin, Tiles::default())?;
     let query = Query::new(builtin.start, builtin.goal);
-    let corners = Rules::Corner(DiagonalGap::Open);
-    let centers = Rules::Center(CornerRule::Never);
     let mut setups = Vec::new();
     for k in KS {
-        setups.push(Setup::new(Engine::AStar, FiniteK::new(k)?, corners));
+        setups.push(Setup::new(Engine::AStar, Motion::corners(FiniteK::new(k)?)));
     }
-    setups.push(Setup::new(Engine::Anya, K::Any, corners));
-    setups.push(Setup::new(Engine::AStar, FiniteK::N8, centers));
+    setups.push(Setup::new(Engine::Anya, Motion::corners(K::Any)));
+    setups.push(Setup::new(Engine::AStar, Motion::centers(FiniteK::N8)));
     let mut rows = Vec::new();
     for setup in setups {
         rows.extend(solve(setup, &map, query)?);

@@ -297,7 +297,7 @@ impl LengthReport<'_> {
         let made = EngineOption::ALL.into_iter().find(|option| option.kind == ValueKind::Levels);
         let made = made.and_then(|option| Some(option.describe(self.index.value(option)?)));
         let made = made.map_or_else(String::new, |made| format!(" · {made}"));
-        writeln!(screen, "{name} · {setup}{made} · {}", k_in_words(setup.k))?;
+        writeln!(screen, "{name} · {setup}{made} · {}", k_in_words(setup.k()))?;
         if let Some(choice) = self.choice {
             writeln!(screen, "{}", by_auto(choice))?;
         }

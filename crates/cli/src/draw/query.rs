@@ -29,7 +29,7 @@ pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
 impl Drawing<'_> {
     /// Draws the map with the path on the screen.
     pub(crate) fn on_screen(&self, waypoints: &[Vertex], screen: &mut Screen) -> io::Result<()> {
-        let placement = self.setup.rules.placement();
+        let placement = self.setup.rules().placement();
         let mut canvas = Canvas::fit(&self.map.tiles(), self.map.theme, placement, screen);
         canvas.path(waypoints, Stroke::Solid, INKS.best);
         canvas.ends(self.request.starts(), self.request.goals());
@@ -47,7 +47,7 @@ impl Drawing<'_> {
         let mut searched = Searched::default();
         // An error of the query was printed already.
         let _ = planner.find_observed(self.request.clone(), &mut searched);
-        let placement = self.setup.rules.placement();
+        let placement = self.setup.rules().placement();
         let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);
         // Where a path was found, its own ends count: those that were asked for may have been moved.
         picture = match (waypoints.first(), waypoints.last()) {
@@ -57,7 +57,7 @@ impl Drawing<'_> {
                 .goals(self.request.goals().iter().copied()),
         };
         let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
-        let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k);
+        let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k());
         Ok(picture.path(name, points).radius(self.map.radius).write_to(path)?)
     }
 }

@@ -33,7 +33,7 @@ pub(crate) fn write(
     let found = match space.distances(setup.engine.kind(), from) {
         Ok(found) => found,
         Err(Error::Query(error)) => {
-            let placement = setup.rules.placement();
+            let placement = setup.rules().placement();
             return Ok(Ending::QueryErrors(explain(error, map, placement)));
         }
         Err(error) => return Err(error.into()),

@@ -57,7 +57,7 @@ impl<'s> Jsonl<'s> {
 
 impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
-        self.world = run.map.frame.map(|frame| (frame, run.setup.rules.placement()));
+        self.world = run.map.frame.map(|frame| (frame, run.setup.rules().placement()));
         self.only_lengths = run.query.distance;
         self.line(&RunLine::from(run))?;
         self.flush()
@@ -200,7 +200,7 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
     fn from(run: &RunHead<'r>) -> Self {
         let setup = run.setup;
         // The key of the other placement's rule has that rule's default.
-        let (corners, gap) = match setup.rules {
+        let (corners, gap) = match setup.rules() {
             Rules::Center(corners) => (corners, DiagonalGap::default()),
             Rules::Corner(gap) => (CornerRule::default(), gap),
         };
@@ -221,11 +221,11 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
             engine: run.choice.map_or(setup.engine.kind(), |_| run.searched_by).name(),
             asked: run.choice.map(|_| EngineName::Auto.name()),
             searched_by: run.searched_by.name(),
-            k: match setup.k {
+            k: match setup.k() {
                 K::Finite(k) => k.get().into(),
                 K::Any => K::Any.to_string().into(),
             },
-            placement: setup.rules.placement().to_string(),
+            placement: setup.rules().placement().to_string(),
             corners: corners.to_string(),
             gap: gap.to_string(),
             options: run.options.iter().map(|&(option, value)| json_of(option, value)).collect(),

@@ -66,7 +66,7 @@ impl Session<'_> {
         item: Item,
     ) -> Result<QueryRecord, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
-        let (grid, rules) = (&*map.grid, run.setup.rules);
+        let (grid, rules) = (&*map.grid, run.setup.rules());
         let request = || run.query.request(item.query);
         if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =

@@ -220,7 +220,7 @@ impl Report for TableReport<'_> {
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
         let setup = run.setup;
         self.queries = run.queries;
-        self.world = run.map.frame.map(|frame| (frame, setup.rules.placement()));
+        self.world = run.map.frame.map(|frame| (frame, setup.rules().placement()));
         self.moved = run.query.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
         self.may_differ = run.query.wishes.nearest || run.query.wishes.has_limits();
@@ -228,7 +228,7 @@ impl Report for TableReport<'_> {
         self.is_reference = setup.solves_scenarios();
         self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
-        let rule = match setup.rules.placement() {
+        let rule = match setup.rules().placement() {
             PlacementKind::Center => format!("corners {}", setup.rule_name()),
             PlacementKind::Corner => format!("gap {}", setup.rule_name()),
         };
@@ -242,7 +242,8 @@ impl Report for TableReport<'_> {
         let last = parts.len() - 1;
         let words = parts.iter().enumerate();
         let words = words.map(|(i, part)| format!("{part}{}", if i < last { "," } else { " ·" }));
-        let problem = [format!("{} ·", k_in_words(setup.k)), format!("{}, {rule}", setup.rules.placement())];
+        let problem =
+            [format!("{} ·", k_in_words(setup.k())), format!("{}, {rule}", setup.rules().placement())];
         let text = wrap("", words.chain(problem), self.screen.columns());
         let rest = text.strip_prefix(name).unwrap_or_default();
         writeln!(self.screen, "{}{rest}", self.screen.paint(BOLD, name))?;

@@ -163,7 +163,7 @@ impl Call {
     pub fn check(&self) -> Result<(), CallError> {
         let motion = self.motion()?;
         if let Some(engine) = self.engine {
-            Setup::new(self.configured(engine)?, motion.k, motion.rules).check()?;
+            Setup::new(self.configured(engine)?, motion).check()?;
         }
         Ok(())
     }
@@ -196,7 +196,7 @@ impl Call {
                 (engine, Some(choice))
             }
         };
-        let setup = Setup { smoothing: self.smoothing, ..Setup::new(engine, motion.k, motion.rules) };
+        let setup = Setup { smoothing: self.smoothing, ..Setup::new(engine, motion) };
         setup.check()?;
         Ok((setup, choice))
     }

@@ -5,13 +5,12 @@ use std::path::Path as FilePath;
 
 use mediant_formats::{IndexError, IndexFile, IndexKey};
 
-use mediant_grid::{Corners, Identity, Interrupt};
+use mediant_grid::{Identity, Interrupt};
 use mediant_moves::K;
-use mediant_subgoal::PreparedSubgoals;
 
-use super::{Index, source::Source};
+use super::Index;
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
+    configured::ConfiguredEngine, engine::Engine, engines::Source, error::Error, map::Map, motion::Motion,
     setup_error::SetupError, space::Space, within::NEVER,
 };
 
@@ -43,11 +42,7 @@ impl Index {
 
     fn file(&self, interrupt: &Interrupt) -> Result<IndexFile, Error> {
         let engine = self.setup.engine.kind();
-        let payload = match self.substitute {
-            // The placement makes no difference.
-            Some(_) => Some(PreparedSubgoals::<Corners>::Nothing(self.identity()).to_bytes()),
-            None => self.prepared.to_bytes(interrupt)?,
-        };
+        let payload = self.prepared.to_bytes(interrupt)?;
         let payload = payload.ok_or_else(|| SetupError::without_index(engine))?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))
     }

@@ -1,37 +1,30 @@
 //! Indexes: the parts that an engine prepares in a space.
 
 mod file;
-mod hierarchies;
-mod parts;
 mod repair;
-mod shape;
-mod source;
-mod subgoals;
 
-use std::{num::NonZeroU32, sync::Arc};
+use std::{fmt, num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Corners, FreeSpace, GridGraph, Identity, Interrupt, names};
+use mediant_grid::{Identity, Interrupt, names};
 use mediant_moves::K;
-use mediant_search::{DeadEnds, JumpTable, Smoothing, parts::BlockFinder};
-use mediant_subgoal::{Progress, SubgoalPlacement};
+use mediant_search::Smoothing;
+use mediant_subgoal::Progress;
 
-pub(crate) use self::parts::{InFreeSpace, OnGridGraph, Prepared};
-pub(crate) use self::source::Source;
 use crate::{
     call::Call,
     configured::ConfiguredEngine,
     engine::Engine,
+    engines::{self, Boxed, EngineIndex, Source},
     error::Error,
+    goals::HasLabels,
     motion::Motion,
     option::{
-        EngineOption, Levels, OptionValue, Variant,
+        EngineOption, Levels, OptionValue,
         description::{LEVELS, SIDE},
     },
-    scratch,
     setup::Setup,
     setup_error::SetupError,
-    shared_rules::{self, Shared},
-    space::{Layers, Placed, Space},
+    space::Space,
     within::NEVER,
 };
 
@@ -50,15 +43,13 @@ use crate::{
 /// assert!(index.planner().find(Query::new((0, 0), (9, 0)))?.path().is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Index {
     space: Space,
     setup: Setup,
     origin: Origin,
-    /// The search space, with the parts prepared on it.
-    pub(crate) prepared: Prepared,
-    /// The engine that searches in place of the setup's, which kept nothing.
-    substitute: Option<Engine>,
+    /// The engine's preparation, which makes the searches of planners.
+    prepared: Arc<dyn EngineIndex>,
 }
 
 /// How an index came about.
@@ -141,25 +132,15 @@ impl Index {
         engine: ConfiguredEngine,
         source: Source<'_>,
     ) -> Result<Self, Error> {
-        let Motion { k, rules, .. } = space.motion();
-        let setup = Setup::new(engine, k, rules);
+        let setup = Setup::new(engine, space.motion());
         setup.check()?;
-        let (prepared, substitute) = match prepared(setup, space, source)? {
-            Some(prepared) => (prepared, None),
-            None => {
-                let engine = subgoals::substitute(space.motion());
-                let source = Source { bytes: None, ..source };
-                let prepared = prepared(Setup { engine: engine.into(), ..setup }, space, source)?;
-                (prepared.ok_or_else(|| SetupError::without_index(engine))?, Some(engine))
-            }
-        };
-        prepared.check_shape(setup.engine)?;
+        let prepared = engines::prepare(setup, space, source)?;
         let space = space.clone();
         if source.bytes.is_none() {
-            return Ok(Self { space, setup, origin: Origin::Prepared, prepared, substitute });
+            return Ok(Self { space, setup, origin: Origin::Prepared, prepared });
         }
-        let setup = Setup { engine: prepared.with_shape(engine)?, ..setup };
-        Ok(Self { space, setup, origin: Origin::Loaded, prepared, substitute })
+        let setup = Setup { engine: prepared.as_prepared().unwrap_or(engine), ..setup };
+        Ok(Self { space, setup, origin: Origin::Loaded, prepared })
     }
 
     /// The index for another k, with the same map, rules, options and smoothing. Hub labels at corners share
@@ -183,9 +164,15 @@ impl Index {
     }
 
     pub(crate) fn prepared_for_k(&self, k: K, interrupt: &Interrupt) -> Result<Self, Error> {
-        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules), interrupt)?;
-        let source = Source { beside: Some(&self.prepared), interrupt, ..self.source() };
-        Ok(Self::from_source(&space, self.setup.engine, source)?.with_smoothing(self.setup.smoothing))
+        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules()), interrupt)?;
+        let source = Source { interrupt, ..self.source() };
+        let setup = Setup { motion: space.motion(), ..self.setup };
+        setup.check()?;
+        let prepared = match self.prepared.for_k(setup, &space, source)? {
+            Some(prepared) => prepared,
+            None => engines::prepare(setup, &space, source)?,
+        };
+        Ok(Self { space, setup, origin: Origin::Prepared, prepared })
     }
 
     /// To prepare another index as this one was.
@@ -203,8 +190,11 @@ impl Index {
     pub fn with_options(self, engine: impl Into<ConfiguredEngine>) -> Result<Self, Error> {
         let setup = Setup { engine: engine.into(), ..self.setup };
         setup.check()?;
-        self.prepared.check(setup, self.setup)?;
-        Ok(Self { setup: Setup { engine: self.prepared.with_shape(setup.engine)?, ..setup }, ..self })
+        let (engine, known) = (setup.engine, self.setup.engine.kind());
+        let prepared = self.prepared.with_options(engine)?;
+        let prepared = prepared.ok_or(SetupError::OtherEngine { engine: engine.kind(), known })?;
+        let engine = prepared.as_prepared().unwrap_or(engine);
+        Ok(Self { setup: Setup { engine, ..setup }, prepared, ..self })
     }
 
     /// The same index for planners that smooth their paths, or do not.
@@ -254,16 +244,13 @@ impl Index {
     /// which they would be slow, as on noise: nothing is kept of them there, and the best engine that
     /// prepares little searches. Its paths are as good: the setup's guarantee holds.
     #[must_use]
-    pub const fn searched_by(&self) -> Engine {
-        match self.substitute {
-            Some(engine) => engine,
-            None => self.setup.engine.kind(),
-        }
+    pub fn searched_by(&self) -> Engine {
+        self.prepared.substitute().unwrap_or_else(|| self.setup.engine.kind())
     }
 
     /// The setup of its planners' searches: with the engine that [searches](Self::searched_by).
     pub(crate) fn search_setup(&self) -> Setup {
-        let engine = self.substitute.map_or(self.setup.engine, ConfiguredEngine::from);
+        let engine = self.prepared.substitute().map_or(self.setup.engine, ConfiguredEngine::from);
         Setup { engine, ..self.setup }
     }
 
@@ -280,106 +267,43 @@ impl Index {
         self.prepared.memory_bytes() as u64
     }
 
+    /// The scratch memory that each of its planners takes when it is made, in bytes. Where the system hands
+    /// memory out only when it is written, as most do, a planner uses no more of it than searches touch;
+    /// what depends on a search alone, such as the open list, comes on top.
+    #[must_use]
+    pub fn scratch_bytes(&self) -> u64 {
+        self.prepared.scratch_bytes() as u64
+    }
+
+    /// A search for a planner.
+    pub(crate) fn search(&self) -> Result<Boxed, Error> {
+        self.prepared.search()
+    }
+
+    /// Its hub labels, if it has any.
+    pub(crate) fn labels(&self) -> Option<&dyn HasLabels> {
+        self.prepared.labels()
+    }
+
     /// The value of an option, as [`ConfiguredEngine::value`], but levels and side as they are in the index:
     /// where the setup leaves them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
-        let (levels, side) = self.prepared.shape();
         match option.name {
-            name if name == LEVELS.name => levels.map(OptionValue::Levels),
-            name if name == SIDE.name => side.and_then(NonZeroU32::new).map(OptionValue::Number),
+            name if name == LEVELS.name => self.prepared.levels().map(OptionValue::Levels),
+            name if name == SIDE.name => {
+                self.prepared.side().and_then(NonZeroU32::new).map(OptionValue::Number)
+            }
             _ => self.setup.engine.value(option),
         }
     }
 }
 
-/// Prepares the parts of a setup's engine in a space; `None` if subgoals kept nothing.
-fn prepared(setup: Setup, space: &Space, source: Source<'_>) -> Result<Option<Prepared>, Error> {
-    Ok(Some(match space.placed() {
-        Placed::Centers(layers) => match setup.engine {
-            ConfiguredEngine::Hpa(_) => {
-                let graph = layers.graph(setup.finite_k()?)?;
-                let clusters = hierarchies::clusters(setup.engine, graph, source)?;
-                Prepared::Centers(Arc::clone(graph), OnGridGraph::Clusters(clusters))
-            }
-            ConfiguredEngine::Chpa(own) => {
-                let graph = layers.graph(setup.finite_k()?)?;
-                let segments = hierarchies::segments(own, graph, source)?;
-                Prepared::Centers(Arc::clone(graph), OnGridGraph::Segments(segments))
-            }
-            ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
-                let parts = subgoals::subgoals(setup, &layers.free, source, None)?;
-                return Ok(parts.map(|parts| Prepared::FreeCenters(Arc::clone(&layers.free), parts)));
-            }
-            _ => {
-                let (graph, parts) = on_grid_graph(setup, layers, source)?;
-                Prepared::Centers(graph, parts)
-            }
-        },
-        Placed::Corners(layers) => match setup.engine {
-            ConfiguredEngine::Anya => {
-                let parts = match source.beside.and_then(Prepared::dead_ends) {
-                    Some(dead_ends) => InFreeSpace::DeadEnds(Arc::clone(dead_ends)),
-                    None if source.for_one_path => InFreeSpace::Nothing,
-                    None => dead_ends(&layers.free, source.interrupt)?,
-                };
-                Prepared::FreeCorners(Arc::clone(&layers.free), parts)
-            }
-            ConfiguredEngine::Subgoal(_) | ConfiguredEngine::SubgoalTheta(_) => {
-                let beside = source.beside.and_then(Prepared::labels);
-                let parts = subgoals::subgoals(setup, &layers.free, source, beside)?;
-                return Ok(parts.map(|parts| Prepared::FreeCorners(Arc::clone(&layers.free), parts)));
-            }
-            _ => {
-                let (graph, parts) = on_grid_graph(setup, layers, source)?;
-                Prepared::Corners(graph, parts)
-            }
-        },
-    }))
-}
-
-/// The dead ends of a map, which Anya leaves out.
-fn dead_ends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<InFreeSpace<Corners>, Error> {
-    scratch::check("the index", DeadEnds::bytes(space) as u64)?;
-    Ok(InFreeSpace::DeadEnds(Arc::new(DeadEnds::interruptible(space, interrupt)?)))
-}
-
-/// The grid graph, and what an engine prepares of it, if it takes either placement.
-fn on_grid_graph<P: SubgoalPlacement + Shared>(
-    setup: Setup,
-    layers: &Layers<P>,
-    source: Source<'_>,
-) -> Result<(Arc<GridGraph<P>>, OnGridGraph<P>), Error> {
-    let graph = layers.graph(setup.finite_k()?)?;
-    let pruning = || shared_rules::pruning(graph, source.interrupt);
-    let parts = match setup.engine {
-        ConfiguredEngine::AStar(_)
-        | ConfiguredEngine::Dijkstra
-        | ConfiguredEngine::Wavefront
-        | ConfiguredEngine::Theta(_)
-        | ConfiguredEngine::LazyTheta(_) => OnGridGraph::Nothing,
-        ConfiguredEngine::Canonical(own) if own.variant == Some(Variant::Paper) => OnGridGraph::Nothing,
-        ConfiguredEngine::Canonical(_) | ConfiguredEngine::Jps(_) => OnGridGraph::Pruning(pruning()?),
-        ConfiguredEngine::JpsBlock(_) => {
-            let pruning = pruning()?;
-            scratch::check("the index", BlockFinder::bytes(graph) as u64)?;
-            let blocks = BlockFinder::interruptible(graph, &pruning, source.interrupt)?;
-            OnGridGraph::Blocks(pruning, blocks)
-        }
-        ConfiguredEngine::JpsPlus(_) => {
-            scratch::check("the index", JumpTable::bytes(graph) as u64)?;
-            let table = match source.bytes {
-                None => JumpTable::interruptible(graph, source.interrupt)?,
-                Some(bytes) => JumpTable::from_bytes_interruptible(graph, bytes, source.interrupt)?,
-            };
-            OnGridGraph::Table(pruning()?, Arc::new(table))
-        }
-        // `Setup::check` has refused these at corners, and they are not handed here at centers.
-        ConfiguredEngine::Anya
-        | ConfiguredEngine::Subgoal(_)
-        | ConfiguredEngine::SubgoalTheta(_)
-        | ConfiguredEngine::Hpa(_)
-        | ConfiguredEngine::Chpa(_) => return Err(SetupError::without_index(setup.engine.kind()).into()),
-    };
-    Ok((Arc::clone(graph), parts))
+impl fmt::Debug for Index {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { setup, origin, .. } = self;
+        let mut fields = f.debug_struct("Index");
+        fields.field("setup", setup).field("origin", origin).field("memory_bytes", &self.memory_bytes());
+        fields.finish_non_exhaustive()
+    }
 }

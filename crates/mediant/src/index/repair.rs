@@ -1,11 +1,9 @@
 //! Indexes for a map that changed.
 
-use std::sync::Arc;
+use mediant_grid::{Interrupt, MapId, Mismatch};
 
-use mediant_grid::{Centers, GridGraph, Interrupt, MapId, Mismatch};
-
-use super::{Index, OnGridGraph, Origin, Prepared, Source};
-use crate::{change::Change, error::Error, space::Placed, within::NEVER};
+use super::{Index, Origin};
+use crate::{change::Change, engines::Source, error::Error, within::NEVER};
 
 impl Index {
     /// The index for the map after a change. It gives the same answers as one prepared anew. Clusters and
@@ -41,35 +39,12 @@ impl Index {
             return Ok(Self { space: after.clone(), origin: Origin::Unchanged, ..self.clone() });
         }
         let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
-        let repaired = match (&self.prepared, after.placed()) {
-            (Prepared::Centers(graph, parts), Placed::Centers(layers)) if is_of_the_same_size => {
-                parts.repaired(layers.graph(graph.k())?, change, interrupt)?
-            }
-            _ => None,
-        };
+        let repaired = if is_of_the_same_size { self.prepared.repaired(change, interrupt)? } else { None };
         let Some(prepared) = repaired else {
             let source = Source { interrupt, ..self.source() };
             let prepared = Self::from_source(after, self.setup.engine, source)?;
             return Ok(Self { setup: self.setup, ..prepared });
         };
         Ok(Self { space: after.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
-    }
-}
-
-impl OnGridGraph<Centers> {
-    /// The same on the grid graph after a change; `None` for what cannot be repaired.
-    fn repaired(
-        &self,
-        after: &Arc<GridGraph<Centers>>,
-        change: &Change,
-        interrupt: &Interrupt,
-    ) -> Result<Option<Prepared>, Error> {
-        let change = change.of_grid();
-        let parts = match self {
-            Self::Clusters(graph) => Self::Clusters(Arc::new(graph.repaired(change, interrupt)?)),
-            Self::Segments(graph) => Self::Segments(Arc::new(graph.repaired(change, interrupt)?)),
-            Self::Nothing | Self::Pruning(_) | Self::Blocks(..) | Self::Table(..) => return Ok(None),
-        };
-        Ok(Some(Prepared::Centers(Arc::clone(after), parts)))
     }
 }

@@ -2,11 +2,12 @@
 
 mod steps;
 
-use std::fmt;
+use std::{fmt, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt, Interrupted, Vertex};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Placement, Vertex};
 use mediant_search::{
     Counters, Guarantee, Observer, Outcome, Path, Planner as _, Query, QueryError, Request, Search,
+    Smoothing,
     parts::{Metric, count_work},
 };
 
@@ -16,11 +17,10 @@ use crate::{
     error::Error,
     goals::Asked,
     index::Index,
-    make::{self, Smoother},
     map::Map,
-    scratch,
+    memory_check,
     setup::Setup,
-    space::Space,
+    space::{Placed, Space},
 };
 
 /// Answers queries on an [`Index`], one after another, on scratch memory of its own. A warm planner allocates
@@ -74,7 +74,7 @@ impl Setup {
     /// [`Error::Setup`] for a setup whose parts do not fit together.
     pub fn space(&self, map: &Map) -> Result<Space, Error> {
         self.check()?;
-        map.space(self.motion())
+        map.space(self.motion)
     }
 
     /// Prepares the setup's engine in a space.
@@ -82,7 +82,7 @@ impl Setup {
     /// # Errors
     /// As for [`Space::prepare`], and [`Error::Mismatch`] for a space of another k or other rules.
     pub fn prepare(&self, space: &Space) -> Result<Index, Error> {
-        let needed = Identity { map: None, rules: self.rules, k: Some(self.k) };
+        let needed = Identity { map: None, rules: self.rules(), k: Some(self.k()) };
         needed.check("the setup", ("the space", space.identity()))?;
         Ok(space.prepare(self.engine)?.with_smoothing(self.smoothing))
     }
@@ -102,7 +102,7 @@ impl Index {
     /// # Errors
     /// [`Error::OutOfMemory`] where memory is short.
     pub fn try_planner(&self) -> Result<Planner, Error> {
-        scratch::check("the planner", self.scratch_bytes())?;
+        memory_check::check("the planner", self.scratch_bytes())?;
         Ok(self.planner())
     }
 
@@ -110,12 +110,12 @@ impl Index {
     /// program ends, as always in Rust; [`try_planner`](Self::try_planner) returns an error.
     #[must_use]
     pub fn planner(&self) -> Planner {
-        let search = make::search(self).expect("every constructor of an index checks what its planners need");
+        let search = self.search().expect("every constructor of an index checks what its planners need");
         let guarantee = search.guarantee();
         let smoothing = self.setup().smoothing;
         Planner {
             search,
-            smooth: smoothing.map(|smoothing| make::smoother(self, smoothing)),
+            smooth: smoothing.map(|smoothing| smoother(self.space(), smoothing)),
             guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
             index: self.clone(),
             begun: None,
@@ -123,6 +123,21 @@ impl Index {
             asked: Asked::default(),
         }
     }
+}
+
+/// Smooths a path.
+type Smoother = Box<dyn Fn(&Path) -> Path + Send>;
+
+fn smoother(space: &Space, smoothing: Smoothing) -> Smoother {
+    match space.placed() {
+        Placed::Centers(layers) => smoother_in(&layers.free, smoothing),
+        Placed::Corners(layers) => smoother_in(&layers.free, smoothing),
+    }
+}
+
+fn smoother_in<P: Placement>(free: &Arc<FreeSpace<P>>, smoothing: Smoothing) -> Smoother {
+    let free = Arc::clone(free);
+    Box::new(move |path| smoothing.apply(&free, path))
 }
 
 impl Planner {
@@ -275,7 +290,7 @@ impl Planner {
     /// bound is proven.
     #[must_use]
     pub fn bound(&self) -> Option<f64> {
-        self.guarantee.bound(self.index.setup().rules)
+        self.guarantee.bound(self.index.setup().rules())
     }
 
     /// The index that it searches.

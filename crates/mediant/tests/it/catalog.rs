@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, GuidedOptions, HeuristicName, JumpOptions, Levels, Setup, SetupError,
-    Variant,
+    ConfiguredEngine, Engine, Error, GuidedOptions, HeuristicName, JumpOptions, Levels, Motion, Setup,
+    SetupError, Variant,
 };
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
@@ -15,7 +15,7 @@ use super::{NEVER, OPEN, build, index, k, levels, map, planner, read, setup};
 /// The engine with its default options, k and rules.
 fn plain(engine: Engine) -> Setup {
     let k = engine.capabilities().default_k;
-    Setup::new(engine, k, engine.capabilities().default_rules(k))
+    Setup::new(engine, Motion::new(k, engine.capabilities().default_rules(k)))
 }
 
 /// The query that all setups answer.
@@ -26,7 +26,7 @@ fn query() -> Query {
 /// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the
 /// straight line.
 fn any_angle_length(rules: Rules) -> f64 {
-    let anya = Setup::new(Engine::Anya, K::Any, rules);
+    let anya = Setup::new(Engine::Anya, Motion::new(K::Any, rules));
     match anya.planner(&map()) {
         Ok(mut anya) => {
             anya.find(query()).expect("both ends are free").path().expect("there is a path").cost()
@@ -57,7 +57,7 @@ fn check(setup: Setup, best: f64, shortest: f64) {
     assert_eq!(planner.guarantee(), setup.guarantee(), "{setup}");
     let answer = planner.find_counted(query());
     let (kind, variant) = (setup.engine.kind(), setup.engine.variant());
-    if (kind, variant, setup.k) == (Engine::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
+    if (kind, variant, setup.k()) == (Engine::Chpa, Some(Variant::Paper), K::Finite(FiniteK::N4)) {
         // As published, the windows of its segments join only what is joined within them.
         assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
         return;
@@ -86,7 +86,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
     for rules in Rules::ALL {
         let shortest = any_angle_length(rules);
         for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            let all: Vec<Setup> = Setup::all(k, rules).collect();
+            let all: Vec<Setup> = Setup::all(Motion::new(k, rules)).collect();
             let Some(&first) = all.first() else {
                 assert_eq!(
                     (k, rules.placement()),
@@ -96,7 +96,7 @@ fn every_setup_makes_the_planner_that_it_promises() {
                 continue;
             };
             let engine = if k == K::Any { Engine::Anya } else { Engine::AStar };
-            assert_eq!(first, Setup::new(engine, k, rules));
+            assert_eq!(first, Setup::new(engine, Motion::new(k, rules)));
             let best = planner(first).find(query()).expect("both ends are free");
             let best = best.path().expect("there is a path").cost();
             setups += all.len();
@@ -121,7 +121,7 @@ fn every_engine_takes_the_k_that_it_says() {
         // Under these rules an engine takes every k that it takes at all.
         let capabilities = engine.capabilities();
         let rules = if capabilities.placements.contains(&PlacementKind::Corner) { OPEN } else { NEVER };
-        let setup = |k: K| Setup::new(engine, k, rules);
+        let setup = |k: K| Setup::new(engine, Motion::new(k, rules));
         let refused = |k: K, error: SetupError| {
             assert_eq!(setup(k).check(), Err(error.clone()));
             let planner = setup(k).planner(&map());
@@ -147,7 +147,7 @@ fn every_engine_takes_the_placements_that_it_says() {
         for rules in Rules::ALL {
             let (capabilities, placement) = (engine.capabilities(), rules.placement());
             // k = 2, since some engines at centers take larger k only under some rules.
-            let said = Setup { rules, k: K::N4, ..plain(engine) }.check();
+            let said = Setup::new(engine, Motion::new(K::N4, rules)).check();
             if capabilities.placements.contains(&placement) {
                 assert_eq!(said, Ok(()), "{engine}, {rules}");
             } else {
@@ -192,7 +192,10 @@ fn a_search_space_is_for_its_own_k_and_rules() {
         let refused = index(ours, others).map(|_| ());
         assert!(matches!(refused, Err(Error::Mismatch(_))), "{ours} in the space of {others}: {refused:?}");
     }
-    assert!(matches!(Setup::new(Engine::Anya, K::Any, NEVER).space(&map()), Err(Error::Setup(_))));
+    assert!(matches!(
+        Setup::new(Engine::Anya, Motion::new(K::Any, NEVER)).space(&map()),
+        Err(Error::Setup(_))
+    ));
     let said = index("anya", "astar:3:open").map(|_| ()).map_err(|error| error.to_string());
     let expected = format!(
         "the setup is for every map, corner, gap open, k = any; the space is for {}, corner, gap open, k = 3: \
@@ -237,7 +240,7 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(setup("astar").engine.heuristic(), Some(HeuristicName::Hk));
     assert_eq!(setup("dijkstra").engine.heuristic(), Some(HeuristicName::Zero));
     assert_eq!((setup("anya").engine.heuristic(), setup("anya")), (None, setup("anya:any:open")));
-    assert_eq!((setup("theta").to_string(), setup("anya:any").rules), ("theta:3:never".to_owned(), OPEN));
+    assert_eq!((setup("theta").to_string(), setup("anya:any").rules()), ("theta:3:never".to_owned(), OPEN));
     assert_eq!(setup("anya:3"), setup("anya:3:open"));
     assert_eq!(
         (setup("subgoal"), setup("subgoal-theta")),
@@ -321,7 +324,7 @@ fn setups_are_read_as_they_are_written() {
     let mut setups = 0;
     for rules in Rules::ALL {
         for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            for setup in Setup::all(k, rules) {
+            for setup in Setup::all(Motion::new(k, rules)) {
                 assert_eq!(setup.to_string().parse(), Ok(setup));
                 setups += 1;
             }
@@ -333,10 +336,10 @@ fn setups_are_read_as_they_are_written() {
     let many = "hpa:3:never,levels=2,side=4,unstraightened";
     assert_eq!(many.parse::<Setup>().map(|setup| setup.to_string()), Ok(many.to_owned()));
     let zero = ConfiguredEngine::LazyTheta(GuidedOptions { heuristic: Some(HeuristicName::Zero) });
-    let both = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(zero, k(5), OPEN) };
+    let both = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(zero, Motion::new(k(5), OPEN)) };
     let limited =
         ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default() });
-    assert_eq!(Setup::new(limited, k(4), NEVER), setup("jps:4:never,limit=16"));
+    assert_eq!(Setup::new(limited, Motion::new(k(4), NEVER)), setup("jps:4:never,limit=16"));
     assert_eq!(
         (both.to_string().as_str(), "lazy-theta:5:open,taut,zero".parse()),
         ("lazy-theta:5:open,zero,taut", Ok(both))
@@ -397,7 +400,7 @@ fn each_wrong_part_is_named() {
 fn a_saved_index_is_as_good_as_a_new_one() {
     for rules in Rules::ALL {
         for k in [2, 3].map(k) {
-            let setup = Setup::new(Engine::JpsPlus, k, rules);
+            let setup = Setup::new(Engine::JpsPlus, Motion::new(k, rules));
             let bytes = build(setup, &map()).expect("an index");
             let saved = read(setup, &map(), bytes.clone()).expect("these are its bytes");
             assert_eq!(saved.planner().find_counted(query()), planner(setup).find_counted(query()));
@@ -434,9 +437,9 @@ fn only_some_engines_have_an_index_or_distances() {
             ),
         }
     }
-    let blocked = distances(Setup::new(Engine::Dijkstra, k(3), NEVER), (6, 0));
+    let blocked = distances(Setup::new(Engine::Dijkstra, Motion::new(k(3), NEVER)), (6, 0));
     assert!(matches!(blocked, Err(Error::Query(_))), "{blocked:?}");
-    let corner = Setup::new(Engine::Dijkstra, k(4), Rules::Corner(DiagonalGap::Closed));
+    let corner = Setup::new(Engine::Dijkstra, Motion::new(k(4), DiagonalGap::Closed));
     let found = distances(corner, (0, 0)).expect("a free start");
     let (_, distance) = found.iter().find(|(at, _)| *at == Vertex::new(2, 1)).expect("it is reached");
     assert!((distance - 5.0_f64.sqrt()).abs() < 1e-9, "{distance}");

@@ -161,7 +161,8 @@ fn a_single_path_prepares_nothing() {
     }
     // All other engines prepare what they always do.
     for rules in Rules::ALL {
-        for setup in Setup::all(K::N8, rules).filter(|setup| setup.engine.kind() != Engine::Anya) {
+        for setup in Setup::all(Motion::new(K::N8, rules)).filter(|setup| setup.engine.kind() != Engine::Anya)
+        {
             let space = setup.space(&map).expect("a space");
             let [one, many] = [space.prepare_for_one_path(setup.engine), space.prepare(setup.engine)];
             let [one, many] = [one, many].map(|index| index.expect("an index"));

@@ -224,7 +224,7 @@ fn the_engine_follows_what_is_asked() {
             let space = space(Motion::new(k, rules));
             for demand in [Demand::Paths(1), Demand::Paths(9), Demand::Paths(u64::MAX), Demand::Distances] {
                 let engine = space.engine_for(demand).expect("there is one").engine;
-                assert!(Setup::new(engine, k, rules).check().is_ok(), "{engine}, {demand:?}");
+                assert!(Setup::new(engine, Motion::new(k, rules)).check().is_ok(), "{engine}, {demand:?}");
                 assert!(demand != Demand::Distances || engine.capabilities().distances);
             }
         }
@@ -267,7 +267,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
         [Motion::centers(K::N8), Motion::centers(K::N4), Motion::corners(K::N16), Motion::corners(K::ANY)]
     {
         let mut space = Map::from(caves(&mut rng, 50, 40)).space(motion).expect("a space");
-        let mut indexes: Vec<_> = Setup::all(motion.k, motion.rules)
+        let mut indexes: Vec<_> = Setup::all(motion)
             .map(|setup| setup.prepare(&space).unwrap_or_else(|error| panic!("{setup}: {error}")))
             .collect();
         for edit in 0..3 {
@@ -466,8 +466,7 @@ fn an_index_takes_the_options_that_it_serves() {
         [Motion::centers(K::N4), Motion::centers(K::N8), Motion::corners(K::N16), Motion::corners(K::ANY)];
     for motion in motions {
         let space = map().space(motion).expect("a space");
-        let setups: Vec<Setup> =
-            Setup::all(motion.k, motion.rules).filter(|one| one.smoothing.is_none()).collect();
+        let setups: Vec<Setup> = Setup::all(motion).filter(|one| one.smoothing.is_none()).collect();
         for (one, other) in setups.iter().flat_map(|one| setups.iter().map(move |other| (one, other))) {
             let index = one.prepare(&space).expect("it fits");
             match index.with_options(other.engine) {

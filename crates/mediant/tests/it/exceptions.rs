@@ -39,7 +39,7 @@ fn check(seed: u64) -> [usize; 2] {
         _ => K::N8,
     };
     let mut counts = [0, 0];
-    for setup in Setup::all(k, rules) {
+    for setup in Setup::all(Motion::new(k, rules)) {
         let mut planner = setup.planner(&map).expect("a planner");
         let mut vertex = || random_vertex(rng, &grid, rules.placement());
         let query = Query::new(vertex(), vertex());
@@ -61,7 +61,7 @@ fn check(seed: u64) -> [usize; 2] {
             let costs = [&answer.outcome, &expected].map(|answer| answer.cost().unwrap_or(0.0));
             assert!((costs[0] - costs[1]).abs() < 1e-6, "{costs:?}, {said}");
         }
-        let space = expected_map.space(setup.motion()).expect("a space");
+        let space = expected_map.space(setup.motion).expect("a space");
         assert!(answer.outcome.path().is_none_or(|path| space.check(path).is_ok()), "{said}");
         counts[0] += usize::from(answer.outcome.path().is_some());
         counts[1] += usize::from(answer.searched_by != setup.engine.kind());
@@ -81,14 +81,14 @@ fn answers_are_those_of_the_edited_map() {
 #[test]
 fn an_agent_that_marks_its_own_cell_leaves_it_with_every_engine() {
     let map = Map::from_rows([".....", "@..@.", "....."]).expect("a map");
-    for setup in Setup::all(K::N8, Rules::ALL[0]) {
+    for setup in Setup::all(Motion::new(K::N8, Rules::ALL[0])) {
         let mut planner = setup.planner(&map).expect("a planner");
         let query = Query::new((3, 1), (0, 1));
         assert!(planner.find(query).is_err(), "{setup}");
         let answer = planner.find_except(query, &Exceptions::new().free_ends()).expect("free ends");
         let cost = answer.outcome.cost().expect("there is a way");
         // Wavefronts have the fewest moves: two diagonal ones and one along the row are as many.
-        let promises = setup.optimal_over() == Some(setup.k);
+        let promises = setup.optimal_over() == Some(setup.k());
         assert!(cost > 2.9 && (!promises || cost == 3.0), "{cost}, {setup}");
     }
     let space = map.space(Motion::centers(K::N8)).expect("a space");

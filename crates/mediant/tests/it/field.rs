@@ -82,7 +82,7 @@ fn all_that_is_measured_is_the_same_number() {
             let goals: Vec<Vertex> = (0..5).map(|_| some(rng, &free)).collect();
             let field = space.field([start]).expect("a free source");
             let expected: Vec<f64> = goals.iter().map(|&at| field.get(at).unwrap_or(f64::INFINITY)).collect();
-            for setup in Setup::all(k, rules).filter(|setup| setup.optimal_over() == Some(k)) {
+            for setup in Setup::all(Motion::new(k, rules)).filter(|setup| setup.optimal_over() == Some(k)) {
                 let text = || format!("{setup}, seed {seed}: {start} to {goals:?}");
                 let index = setup.prepare(&space).expect("an index");
                 let mut planner = index.planner();
@@ -183,7 +183,7 @@ fn every_engine_takes_an_agents_map() {
     let map = Map::from_fn(24, 16, |x, y| x == 12 && !(5..10).contains(&y)).expect("a map");
     for (k, rules) in [(K::N8, NEVER), (K::ANY, OPEN)] {
         let agent = map.for_disc(1.5, Motion::new(k, rules)).expect("a radius");
-        for setup in Setup::all(k, rules) {
+        for setup in Setup::all(Motion::new(k, rules)) {
             let answer = setup.planner(&agent).expect("a setup").find(Query::new((4, 3), (20, 12)));
             let path = answer.expect("free ends").into_path().unwrap_or_else(|| panic!("{setup}"));
             assert_eq!(setup.space(&agent).expect("a space").check(&path), Ok(()), "{setup}");

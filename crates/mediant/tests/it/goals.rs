@@ -9,7 +9,7 @@ use super::{NEVER, OPEN, setup};
 
 /// Some free vertices, one of them twice.
 fn vertices(rng: &mut Rng, map: &Map, setup: Setup, count: usize) -> Option<Vec<Vertex>> {
-    let one = |rng: &mut Rng| random_free_vertex(rng, map.grid(), setup.rules.placement());
+    let one = |rng: &mut Rng| random_free_vertex(rng, map.grid(), setup.rules().placement());
     let mut all: Vec<Vertex> = (0..count).map(|_| one(rng)).collect::<Option<_>>()?;
     all.push(*all.first()?);
     Some(all)

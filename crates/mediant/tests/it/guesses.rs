@@ -142,7 +142,7 @@ fn a_bad_k_is_kept_until_it_is_used() -> Result<(), Error> {
             check_error(map.space(motion), code);
             check_error(map.within(&limits).space(motion), code);
             // The k alone is one that no engine takes.
-            let error = Setup::new(Engine::AStar, motion.k, motion.rules).planner(&map).map(drop);
+            let error = Setup::new(Engine::AStar, motion).planner(&map).map(drop);
             check_error(error, ErrorCode::EngineK);
             let shown = map.space(motion).err().map(|error| error.to_string()).unwrap_or_default();
             assert!(shown.contains(text) && motion.to_string().ends_with(text), "{shown}; {motion}");
@@ -241,7 +241,8 @@ fn an_error_says_what_is_wrong_by_debug() -> Result<(), Error> {
     assert_eq!(format!("{error:?}"), "start-blocked: the start (1, 1) is blocked: choose a free vertex");
     let error = planner()?.path((1, 1), (0, 0)).expect_err("it is blocked");
     assert_eq!(format!("{error:?}"), "the start (1, 1) is blocked: choose a free vertex");
-    let error = Setup::new(Engine::Anya, K::N8, CornerRule::Never.into()).check().expect_err("at corners");
+    let error =
+        Setup::new(Engine::Anya, Motion::new(K::N8, CornerRule::Never)).check().expect_err("at corners");
     assert_eq!(format!("{error:?}"), error.to_string());
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant::{
     ChpaOptions, ConfiguredEngine, Engine, EngineOption, Error, HeuristicName, HpaOptions, Index, Levels,
-    Map, OptionValue, Setup, SetupError, Variant,
+    Map, Motion, OptionValue, Setup, SetupError, Variant,
 };
 use mediant_grid::{Centers, CornerRule, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, Clustering, FallbackPolicy, HierarchyError, SegmentGraph};
@@ -50,7 +50,7 @@ fn graphs_exist_for_the_setups_that_the_catalog_takes() {
     for rules in Rules::ALL {
         for k in (2..=5).map(|n| K::Finite(k(n))).chain([K::Any]) {
             for engine in [Engine::Hpa, Engine::Chpa] {
-                let setup = Setup::new(engine, k, rules);
+                let setup = Setup::new(engine, Motion::new(k, rules));
                 if setup.check().is_ok() {
                     taken.push(setup.to_string());
                 }
@@ -71,10 +71,10 @@ fn graphs_exist_for_the_setups_that_the_catalog_takes() {
         expected.flat_map(|(rule, k)| ["hpa", "chpa"].map(|engine| format!("{engine}:{k}:{rule}")));
     assert_eq!(taken, expected.collect::<Vec<_>>());
     let (k, rules) = (K::Finite(FiniteK::N8), Rules::Center(CornerRule::One));
-    let refused = Setup::new(Engine::Hpa, k, rules).check();
+    let refused = Setup::new(Engine::Hpa, Motion::new(k, rules)).check();
     assert_eq!(refused, Err(SetupError::Centers { engine: Engine::Hpa, k, rules }));
     let needed = PlacementKind::Center;
-    let corners = Setup::new(Engine::Chpa, k, Rules::Corner(Default::default())).check();
+    let corners = Setup::new(Engine::Chpa, Motion::corners(k)).check();
     assert!(
         matches!(corners, Err(SetupError::Placement { needed: found, .. }) if found == needed),
         "{corners:?}"
@@ -128,7 +128,7 @@ fn all_levels_are_as_many_as_fit() {
     for side in 2..=64 {
         let of = |levels| {
             let own = HpaOptions { side: NonZeroU32::new(side), levels, ..HpaOptions::default() };
-            Setup::new(ConfiguredEngine::Hpa(own), k(3), NEVER)
+            Setup::new(ConfiguredEngine::Hpa(own), Motion::new(k(3), NEVER))
         };
         let all = of(Some(Levels::All));
         let Some(Levels::Number(levels)) = all.engine.levels() else {
@@ -158,7 +158,7 @@ fn a_saved_graph_is_as_good_as_a_new_one() {
     let mut setups = 0;
     for rules in Rules::ALL {
         for k in [2, 3].map(k) {
-            for setup in Setup::all(k, rules).filter(has_hierarchy) {
+            for setup in Setup::all(Motion::new(k, rules)).filter(has_hierarchy) {
                 let new = index(setup, &map).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let bytes = new.to_bytes().unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let saved = read(setup, &map, bytes).unwrap_or_else(|error| panic!("{setup}: {error}"));

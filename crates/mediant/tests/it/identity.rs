@@ -45,7 +45,7 @@ fn saved_indexes_are_read_only_where_they_belong() {
         .collect();
     for motion in motions() {
         let Some(ours) = space(&map(), motion) else { continue };
-        for setup in Setup::all(motion.k, motion.rules).filter(|setup| setup.index_version().is_ok()) {
+        for setup in Setup::all(motion).filter(|setup| setup.index_version().is_ok()) {
             let Ok(bytes) = setup.prepare(&ours).and_then(|index| index.to_bytes()) else {
                 panic!("{setup}: no bytes")
             };
@@ -70,7 +70,7 @@ fn indexes_are_repaired_only_for_their_own_motion() {
     let mut refused = 0;
     for motion in motions() {
         let Some(ours) = space(&map(), motion) else { continue };
-        for setup in Setup::all(motion.k, motion.rules) {
+        for setup in Setup::all(motion) {
             let index = setup.prepare(&ours).unwrap_or_else(|error| panic!("{setup}: {error}"));
             for other in motions().filter(|&other| other != motion) {
                 for map in [map()].into_iter().chain(other_maps()) {

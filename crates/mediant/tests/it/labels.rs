@@ -15,8 +15,9 @@ fn noisy(side: u32, percent: u32) -> Map {
 /// Some queries between free vertices of a map.
 fn queries(map: &Map, setup: Setup, count: usize) -> Vec<Query> {
     let rng = &mut Rng::new(11);
-    let mut end =
-        || -> Vertex { random_free_vertex(rng, map.grid(), setup.rules.placement()).expect("a free vertex") };
+    let mut end = || -> Vertex {
+        random_free_vertex(rng, map.grid(), setup.rules().placement()).expect("a free vertex")
+    };
     (0..count).map(|_| Query::new(end(), end())).collect()
 }
 
@@ -216,7 +217,8 @@ fn another_k_gives_the_index_of_that_k() {
         ("jps-plus:2:never", "jps-plus:3:never"),
         ("subgoal:any:open,taut", "subgoal:5:open,taut"),
     ] {
-        let made = index(setup(text), &map).and_then(|index| index.for_k(setup(other).k)).expect("an index");
+        let made =
+            index(setup(text), &map).and_then(|index| index.for_k(setup(other).k())).expect("an index");
         let alone = index(setup(other), &map).expect("an index");
         assert_eq!((made.setup(), made.identity()), (alone.setup(), alone.identity()));
         assert_eq!(made.to_bytes().ok(), alone.to_bytes().ok(), "{text}, {other}");

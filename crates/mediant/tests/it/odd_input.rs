@@ -28,7 +28,7 @@ fn vertices_may_be_anywhere() {
             assert!(on_map(a) || !space.is_free(a), "{a}, {}", space.motion());
             asked += 1;
         }
-        let engines = Setup::all(space.motion().k, space.motion().rules);
+        let engines = Setup::all(space.motion());
         let mut planners: Vec<_> =
             engines.map(|setup| setup.prepare(&space).expect("it fits").planner()).collect();
         for at in vertices().filter(|&at| !space.is_free(at)) {
@@ -71,7 +71,7 @@ fn maps_may_be_tiny_or_full() {
         for space in motions().filter_map(|motion| map.space(motion).ok()) {
             let choice = space.engine();
             assert!(space.planner(choice).is_ok(), "{choice}");
-            for setup in Setup::all(space.motion().k, space.motion().rules) {
+            for setup in Setup::all(space.motion()) {
                 let index = setup.prepare(&space).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let answer = index.planner().find(Query::new((0, 0), (0, 0)));
                 assert_eq!(answer.is_ok(), !blocked, "{setup}");

@@ -1,6 +1,8 @@
 //! Options: which engines take them, and how they are read, written and reported.
 
-use mediant::{ConfiguredEngine, Engine, EngineOption, Memory, OptionValue, Setup, SetupError, ValueKind};
+use mediant::{
+    ConfiguredEngine, Engine, EngineOption, Memory, Motion, OptionValue, Setup, SetupError, ValueKind,
+};
 
 use super::{NEVER, k, setup};
 
@@ -103,7 +105,7 @@ fn only_subgoals_have_a_contraction_hierarchy_and_hub_labels() {
     let said = said("subgoal,levels=2,memory=8MB");
     let expected = "memory is for hub labels, not for 2 levels: leave out the one or the other";
     assert!(said.ends_with(expected), "{said}");
-    assert!(Setup::new(Engine::Hpa, k(3), NEVER).check().is_ok());
+    assert!(Setup::new(Engine::Hpa, Motion::new(k(3), NEVER)).check().is_ok());
 }
 
 #[test]

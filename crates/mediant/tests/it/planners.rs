@@ -16,7 +16,7 @@ fn queries(map: &Map, count: usize, rng: &mut Rng) -> Vec<Query> {
 fn check(k: K, rules: Rules, seed: u64) {
     let map = Map::from(random_grid(seed).0);
     let queries = queries(&map, 40, &mut Rng::new(seed));
-    for setup in Setup::all(k, rules) {
+    for setup in Setup::all(Motion::new(k, rules)) {
         let index = setup.space(&map).and_then(|space| setup.prepare(&space)).expect("a setup of the suite");
         let mut planner = index.planner();
         let expected: Vec<_> = queries.iter().map(|&query| planner.find(query)).collect();

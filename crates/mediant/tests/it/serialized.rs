@@ -74,7 +74,7 @@ fn names_and_setups_are_texts() {
     let mut setups = 0;
     for rules in Rules::ALL {
         for k in [K::N8, K::N16, K::ANY] {
-            for setup in Setup::all(k, rules) {
+            for setup in Setup::all(Motion::new(k, rules)) {
                 check(&setup, &json!(setup.to_string()));
                 setups += 1;
             }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex};
 
-use mediant::{Engine, Error, Levels, Progress, Setup, SetupError, Stage};
+use mediant::{Engine, Error, Levels, Motion, Progress, Setup, SetupError, Stage};
 use mediant_grid::{Centers, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::Query;
@@ -20,7 +20,7 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
     let mut taken = Vec::new();
     for rules in Rules::ALL.into_iter().filter(|rules| rules.placement() == PlacementKind::Center) {
         for k in (2..=12).map(|n| K::Finite(k(n))).chain([K::Any]) {
-            let setup = Setup::new(Engine::Subgoal, k, rules);
+            let setup = Setup::new(Engine::Subgoal, Motion::new(k, rules));
             // The catalog and the subgoal graphs agree on which exist.
             let small = k.finite().map_or(4, |k| k.get().min(4));
             let Rules::Center(rule) = rules else { panic!("{rules}") };
@@ -56,7 +56,7 @@ fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
     let mut setups = 0;
     for rules in Rules::ALL {
         for k in [2, 3, 5].map(|n| K::Finite(k(n))).into_iter().chain([K::Any]) {
-            for setup in Setup::all(k, rules).filter(is_subgoal) {
+            for setup in Setup::all(Motion::new(k, rules)).filter(is_subgoal) {
                 let new = index(setup, &map()).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let bytes = new.to_bytes().unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let saved = read(setup, &map(), bytes).unwrap_or_else(|error| panic!("{setup}: {error}"));

@@ -10,7 +10,7 @@ use super::{NEVER, OPEN};
 fn check(k: K, rules: Rules, seed: u64) {
     let rng = &mut Rng::new(seed);
     let map = Map::from(random_grid(seed).0);
-    for setup in Setup::all(k, rules) {
+    for setup in Setup::all(Motion::new(k, rules)) {
         let space = setup.space(&map).expect("a setup of the suite");
         let index = setup.prepare(&space).expect("a setup of the suite");
         let free: Vec<Vertex> = (0..=map.height() as i32)

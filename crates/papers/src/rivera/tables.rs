@@ -126,7 +126,7 @@ fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
     let space = setup
         .space(&mediant::Map::from(Arc::clone(&grid)))
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
-    let rules: Rules = setup.rules;
+    let rules: Rules = setup.rules();
     let solvable = |query: Query| space.connected(query.start, query.goal);
     Ok(random_queries(&mut context.rng(map), &grid, rules, problems(context, &map.set), solvable))
 }

@@ -120,6 +120,6 @@ impl Index {
             }
             answered => answered.map_err(raised)?,
         };
-        Answer::new(py, &outcome, points, self.setup().rules, rest)
+        Answer::new(py, &outcome, points, self.setup().rules(), rest)
     }
 }

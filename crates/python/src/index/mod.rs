@@ -96,7 +96,7 @@ impl Index {
     /// The neighborhood: a number, or "any".
     #[getter]
     fn k<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        match self.setup().k {
+        match self.setup().k() {
             K::Finite(k) => Ok(k.get().into_pyobject(py)?.into_any()),
             K::Any => Ok("any".into_pyobject(py)?.into_any()),
         }
@@ -105,7 +105,7 @@ impl Index {
     /// Where the vertices are.
     #[getter]
     fn placement(&self) -> String {
-        self.setup().rules.placement().to_string()
+        self.setup().rules().placement().to_string()
     }
 
     /// The rule at corners of cells, or at gaps.

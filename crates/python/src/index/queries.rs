@@ -74,7 +74,7 @@ impl Asked<'_, '_> {
         points: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let points = PathPoints::read(points)?;
-        let rules = self.planners.index().setup().rules;
+        let rules = self.planners.index().setup().rules();
         let outcome = answer::whole(py, self.outcome(&self.ends()?, false)?.0, points, rules)?;
         outcome.path().map(|path| points.array(py, path, rules.placement())).transpose()
     }
@@ -89,7 +89,7 @@ impl Asked<'_, '_> {
         }
         let setup = index.setup();
         let outcome = self.outcome(&ends, false)?.0;
-        let outcome = answer::whole(py, outcome, PathPoints::Waypoints, setup.rules)?;
+        let outcome = answer::whole(py, outcome, PathPoints::Waypoints, setup.rules())?;
         Ok(mediant::Answer::new(&outcome, setup.guarantee()).distance())
     }
 
@@ -104,7 +104,7 @@ impl Asked<'_, '_> {
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
         let (outcome, counters) = self.outcome(&self.ends()?, counters)?;
-        Answer::new(py, &outcome, points, setup.rules, (setup.guarantee(), counters))
+        Answer::new(py, &outcome, points, setup.rules(), (setup.guarantee(), counters))
     }
 }
 

@@ -80,7 +80,7 @@ impl Index {
         let (changed, index) = (changed.get().clone(), self.planners.index().clone());
         let map = changed.map().clone();
         let work = move |limits: &Limits| {
-            let space = map.within(limits).space(index.setup().motion())?;
+            let space = map.within(limits).space(index.setup().motion)?;
             let change = Change::between(index.space(), &space)?;
             in_pool(None, || index.within(limits).repair(&change))
         };
@@ -166,7 +166,7 @@ impl Index {
         let map = grid.map().clone();
         let work = move |limits: &Limits| match bytes {
             None => {
-                let space = map.within(limits).space(setup.motion())?;
+                let space = map.within(limits).space(setup.motion)?;
                 let index = space.within(limits).prepare(setup.engine)?;
                 Ok::<_, mediant::Error>(index.with_smoothing(setup.smoothing))
             }

@@ -387,7 +387,7 @@ impl Index {
             planner.begin(request)?;
             Ok(planner)
         });
-        let (trace, rules) = (keeps_events.then(Events::default), index.setup().rules);
+        let (trace, rules) = (keeps_events.then(Events::default), index.setup().rules());
         let state = State { planner: planner.map_err(raised)?, query, trace, answer: None };
         Ok(Search { state: Arc::new(Mutex::new(state)), points, rules })
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Engine, Map, Planner, Setup, Space, Variant};
+use mediant::{Engine, Map, Motion, Planner, Setup, Space, Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
@@ -73,7 +73,7 @@ pub(crate) fn with_any_angle_engines<R>(
 }
 
 fn on<R>(grid: &Arc<Grid>, rules: Rules, k: K, suite: impl FnOnce(Vec<TestedEngine<'_>>) -> R) -> R {
-    let setups: Vec<Setup> = Setup::all(k, rules).collect();
+    let setups: Vec<Setup> = Setup::all(Motion::new(k, rules)).collect();
     let space = setups[0].space(&Map::from(Arc::clone(grid))).expect("k is in range");
     suite(setups.into_iter().map(|setup| TestedEngine::new(setup, &space)).collect())
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Engine, Map, Setup};
+use mediant::{Engine, Map, Motion, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Outcome, Query, Smoothing};
@@ -20,7 +20,7 @@ fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Op
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
     let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let k = if engine == Engine::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
-    let setup = Setup { smoothing, ..Setup::new(engine, k, rules) };
+    let setup = Setup { smoothing, ..Setup::new(engine, Motion::new(k, rules)) };
     let grid = Arc::new(map.grid);
     let mut planner = setup.planner(&Map::from(Arc::clone(&grid))).expect("the engine takes this");
     match planner.find(query).expect("both ends are free") {

@@ -97,11 +97,11 @@ impl Grid {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
                 let outcome = Outcome::Stopped(Stopped::before_search(by, start));
-                return Ok((outcome, (Guarantee::Suboptimal, setup.rules)));
+                return Ok((outcome, (Guarantee::Suboptimal, setup.rules())));
             }
             Err(error) => return Err(raised(error)),
         };
         planners.try_make_ready().map_err(raised)?;
-        Ok((planners.find(request).map_err(raised)?, (setup.guarantee(), setup.rules)))
+        Ok((planners.find(request).map_err(raised)?, (setup.guarantee(), setup.rules())))
     }
 }

@@ -220,7 +220,9 @@ fn of_the_nearest_vertices_the_first_is_reached() {
     let space =
         Map::from_rows(["...", "#.#"]).expect("a map").space(Motion::centers(K::N8)).expect("a space");
     let query = Query::new((0, 0), (2, 1));
-    for setup in Setup::all(K::N8, space.motion().rules).filter(|setup| setup.smoothing.is_none()) {
+    for setup in
+        Setup::all(Motion::new(K::N8, space.motion().rules)).filter(|setup| setup.smoothing.is_none())
+    {
         let mut planner = setup.prepare(&space).expect("an index").planner();
         if !is_exact(&planner) {
             continue;
@@ -258,7 +260,8 @@ fn segments_between_two_blocked_cells_are_paths() {
         assert_eq!(alone, Ok(Outcome::Unreachable), "{engine}");
     }
     // Nor do they where they are smoothed afterwards.
-    let smoothed = Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(Engine::AStar, K::N4, rules) };
+    let smoothed =
+        Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(Engine::AStar, Motion::new(K::N4, rules)) };
     let mut planner = smoothed.prepare(&space).expect("an index").planner();
     let answer = planner.find(Query::new((0, 0), (1, 1)).nearest()).expect("free ends");
     assert_eq!(answer, Outcome::Nearest(Path::new(vec![(0, 0).into()])));

@@ -109,7 +109,7 @@ impl World {
             let is_any_angle = matches!(setup.engine.kind(), Engine::Theta | Engine::LazyTheta);
             !is_special || is_any_angle == self.over_segments
         };
-        Setup::all(k, rules).filter(takes_part).map(|setup| {
+        Setup::all(Motion::new(k, rules)).filter(takes_part).map(|setup| {
             let index = setup.prepare(&self.space).unwrap_or_else(|error| panic!("{setup}: {error}"));
             (setup, index.planner())
         })

@@ -94,7 +94,7 @@ fn a_tolerance_reaches_through_walls() {
 fn a_stopped_search_names_what_it_reached() {
     for motion in motions().into_iter().filter(|motion| motion.k == K::Any) {
         let world = world(motion);
-        for setup in Setup::all(motion.k, motion.rules) {
+        for setup in Setup::all(motion) {
             let mut planner = setup.prepare(&world.space).expect("an index").planner();
             let query = Query::new((4, 10), (3, 2));
             let whole = planner.find(query).expect("both ends are free").into_path().expect("a way");

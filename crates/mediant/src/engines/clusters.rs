@@ -1,0 +1,99 @@
+//! HPA*, on clusters of the map.
+
+use std::{num::NonZeroU32, sync::Arc};
+
+use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted};
+use mediant_hierarchy::{ClusterGraph, HpaStar};
+
+use super::{Boxed, EngineIndex, Source, boxed, check_levels, check_side, shared, with_options};
+use crate::{
+    change::Change,
+    configured::{ConfiguredEngine, HpaOptions},
+    engine::Engine,
+    error::Error,
+    option::Levels,
+    space::PlacementOfSpace as _,
+};
+
+/// A grid graph with its clusters.
+pub(super) struct ClusterIndex {
+    own: HpaOptions,
+    graph: Arc<GridGraph<Centers>>,
+    clusters: Arc<ClusterGraph>,
+}
+
+impl ClusterIndex {
+    pub(super) fn new(
+        own: HpaOptions,
+        graph: &Arc<GridGraph<Centers>>,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
+        let clusters = match source.bytes {
+            Some(bytes) => ClusterGraph::from_bytes_interruptible(graph, bytes, source.interrupt)?,
+            None => ClusterGraph::interruptible(graph, own.clustering(), source.interrupt)?,
+        };
+        Self::of(own, graph, Arc::new(clusters))
+    }
+
+    /// Checks that the clusters are those that the options name.
+    fn of(
+        own: HpaOptions,
+        graph: &Arc<GridGraph<Centers>>,
+        clusters: Arc<ClusterGraph>,
+    ) -> Result<Self, Error> {
+        let found = clusters.clustering();
+        check_side(own.side, found.side)?;
+        // The side decides how many `all` levels are.
+        let named = HpaOptions { side: NonZeroU32::new(found.side), ..own }.clustering();
+        let [named, found] = [named, found].map(|made| NonZeroU32::new(made.levels).map(Levels::Number));
+        check_levels(named.filter(|_| own.levels.is_some()), found)?;
+        Ok(Self { own, graph: Arc::clone(graph), clusters })
+    }
+}
+
+impl EngineIndex for ClusterIndex {
+    fn search(&self) -> Result<Boxed, Error> {
+        let search = HpaStar::new(Arc::clone(&self.graph), Arc::clone(&self.clusters))?;
+        Ok(boxed(search.with_straightening(!self.own.unstraightened)))
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        HpaStar::scratch_bytes(&self.clusters)
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let ConfiguredEngine::Hpa(own) = engine else { return Ok(None) };
+        with_options(Self::of(own, &self.graph, Arc::clone(&self.clusters)))
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.clusters.memory_bytes()
+    }
+
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        self.clusters.to_bytes_interruptible(interrupt).map(Some)
+    }
+
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let graph = Centers::layers(change.after(), Engine::Hpa)?.graph(self.graph.k())?;
+        let clusters = self.clusters.repaired(change.of_grid(), interrupt)?;
+        shared(Self::of(self.own, graph, Arc::new(clusters))).map(Some)
+    }
+
+    fn as_prepared(&self) -> Option<ConfiguredEngine> {
+        let (levels, side) = (self.levels(), self.side().and_then(NonZeroU32::new));
+        Some(ConfiguredEngine::Hpa(HpaOptions { levels, side, ..self.own }))
+    }
+
+    fn levels(&self) -> Option<Levels> {
+        NonZeroU32::new(self.clusters.clustering().levels).map(Levels::Number)
+    }
+
+    fn side(&self) -> Option<u32> {
+        Some(self.clusters.clustering().side)
+    }
+}

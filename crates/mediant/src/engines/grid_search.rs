@@ -1,0 +1,73 @@
+//! A*, Dijkstra's algorithm and the wavefront, which search a grid graph as it is.
+
+use std::sync::Arc;
+
+use mediant_grid::{GridGraph, Placement};
+use mediant_search::{AStar, Euclidean, Hk, SquaredEuclidean, Wavefront, Zero, parts::NodeStore};
+
+use super::{Boxed, EngineIndex, boxed, with_options};
+use crate::{
+    configured::{ConfiguredEngine, GuidedOptions},
+    error::Error,
+    option::HeuristicName,
+};
+
+/// A grid graph, and which of the engines searches it.
+pub(super) struct GridSearchIndex<P: Placement> {
+    graph: Arc<GridGraph<P>>,
+    engine: GridSearch,
+}
+
+#[derive(Clone, Copy)]
+enum GridSearch {
+    AStar(HeuristicName),
+    Dijkstra,
+    Wavefront,
+}
+
+impl<P: Placement> GridSearchIndex<P> {
+    pub(super) fn a_star(graph: &Arc<GridGraph<P>>, own: GuidedOptions) -> Result<Self, Error> {
+        Self::new(graph, GridSearch::AStar(own.heuristic.unwrap_or_default()))
+    }
+
+    pub(super) fn dijkstra(graph: &Arc<GridGraph<P>>) -> Result<Self, Error> {
+        Self::new(graph, GridSearch::Dijkstra)
+    }
+
+    pub(super) fn wavefront(graph: &Arc<GridGraph<P>>) -> Result<Self, Error> {
+        Self::new(graph, GridSearch::Wavefront)
+    }
+
+    fn new(graph: &Arc<GridGraph<P>>, engine: GridSearch) -> Result<Self, Error> {
+        Ok(Self { graph: Arc::clone(graph), engine })
+    }
+}
+
+impl<P: Placement> EngineIndex for GridSearchIndex<P> {
+    fn search(&self) -> Result<Boxed, Error> {
+        let graph = Arc::clone(&self.graph);
+        Ok(match self.engine {
+            GridSearch::AStar(HeuristicName::Hk) => boxed(AStar::new(graph, Hk)),
+            GridSearch::AStar(HeuristicName::Euclidean) => boxed(AStar::new(graph, Euclidean)),
+            GridSearch::AStar(HeuristicName::SquaredEuclidean) => boxed(AStar::new(graph, SquaredEuclidean)),
+            GridSearch::AStar(HeuristicName::Zero) | GridSearch::Dijkstra => boxed(AStar::new(graph, Zero)),
+            GridSearch::Wavefront => boxed(Wavefront::new(graph)),
+        })
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        match self.engine {
+            GridSearch::AStar(_) | GridSearch::Dijkstra => NodeStore::<()>::bytes(self.graph.vertex_count()),
+            GridSearch::Wavefront => Wavefront::scratch_bytes(&*self.graph),
+        }
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        with_options(match (self.engine, engine) {
+            (GridSearch::AStar(_), ConfiguredEngine::AStar(own)) => Self::a_star(&self.graph, own),
+            (GridSearch::Dijkstra, ConfiguredEngine::Dijkstra) => Self::dijkstra(&self.graph),
+            (GridSearch::Wavefront, ConfiguredEngine::Wavefront) => Self::wavefront(&self.graph),
+            _ => return Ok(None),
+        })
+    }
+}

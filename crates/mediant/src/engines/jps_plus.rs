@@ -1,0 +1,57 @@
+//! JPS+: jump point search by a table of jump points, which can be saved.
+
+use std::sync::Arc;
+
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement};
+use mediant_search::JumpTable;
+
+use super::{
+    Source,
+    jumps::{EngineFinder, JumpIndex},
+};
+use crate::{
+    configured::{ConfiguredEngine, JpsPlusOptions, JumpOptions},
+    engine::Engine,
+    error::Error,
+    memory_check,
+    shared_rules::{self, Shared},
+};
+
+impl<P: Shared> JumpIndex<P, Arc<JumpTable>> {
+    pub(super) fn by_table(
+        graph: &Arc<GridGraph<P>>,
+        own: JpsPlusOptions,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
+        memory_check::check("the index", JumpTable::bytes(graph) as u64)?;
+        let table = match source.bytes {
+            None => JumpTable::interruptible(graph, source.interrupt)?,
+            Some(bytes) => JumpTable::from_bytes_interruptible(graph, bytes, source.interrupt)?,
+        };
+        let pruning = shared_rules::pruning(graph, source.interrupt)?;
+        Self::new(graph, pruning, Arc::new(table), own.into())
+    }
+}
+
+impl<P: Placement> EngineFinder<P> for Arc<JumpTable> {
+    const ENGINE: Engine = Engine::JpsPlus;
+
+    fn options(engine: ConfiguredEngine) -> Option<JumpOptions> {
+        if let ConfiguredEngine::JpsPlus(own) = engine { Some(own.into()) } else { None }
+    }
+
+    fn memory_bytes(&self) -> usize {
+        JumpTable::memory_bytes(self)
+    }
+
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        self.to_bytes_interruptible(interrupt).map(Some)
+    }
+}
+
+/// The table has jumps of every length.
+impl From<JpsPlusOptions> for JumpOptions {
+    fn from(JpsPlusOptions { heuristic, keep_intermediate }: JpsPlusOptions) -> Self {
+        Self { heuristic, jump_limit: None, keep_intermediate }
+    }
+}

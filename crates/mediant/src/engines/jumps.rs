@@ -1,0 +1,132 @@
+//! Jump point search, vertex by vertex and by blocks; JPS+ adds [lists](super::jps_plus) to it.
+
+use std::{num::NonZeroU32, sync::Arc};
+
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VertexId};
+use mediant_search::{
+    Pruning,
+    parts::{BlockFinder, JumpFinder, JumpPointSearch, NodeStore, StepwiseFinder},
+};
+
+use super::{Boxed, EngineIndex, Source, boxed, with_options};
+use crate::{
+    configured::{ConfiguredEngine, JumpOptions},
+    engine::Engine,
+    error::Error,
+    heuristic::Admissible,
+    memory_check,
+    shared_rules::{self, Shared},
+};
+
+/// A grid graph with its pruning rule, and what finds jump points.
+pub(super) struct JumpIndex<P: Placement, J> {
+    graph: Arc<GridGraph<P>>,
+    pruning: Arc<Pruning<P>>,
+    finder: J,
+    heuristic: Admissible,
+    limit: Option<NonZeroU32>,
+    keep_intermediate: bool,
+}
+
+/// The finder of jump points of one of the engines.
+pub(super) trait EngineFinder<P: Placement>: JumpFinder<P> + Clone + Send + Sync {
+    /// The engine.
+    const ENGINE: Engine;
+
+    /// The options, if they are the engine's.
+    fn options(engine: ConfiguredEngine) -> Option<JumpOptions>;
+
+    /// The memory that it uses, in bytes.
+    fn memory_bytes(&self) -> usize;
+
+    /// The bytes of a saved index; `None` for an engine whose index is not saved.
+    fn to_bytes(&self, _interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        Ok(None)
+    }
+}
+
+impl<P: Shared> JumpIndex<P, StepwiseFinder> {
+    pub(super) fn stepwise(
+        graph: &Arc<GridGraph<P>>,
+        own: JumpOptions,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
+        Self::new(graph, shared_rules::pruning(graph, source.interrupt)?, StepwiseFinder, own)
+    }
+}
+
+impl<P: Shared> JumpIndex<P, BlockFinder> {
+    pub(super) fn by_blocks(
+        graph: &Arc<GridGraph<P>>,
+        own: JumpOptions,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
+        let pruning = shared_rules::pruning(graph, source.interrupt)?;
+        memory_check::check("the index", BlockFinder::bytes(graph) as u64)?;
+        let blocks = BlockFinder::interruptible(graph, &pruning, source.interrupt)?;
+        Self::new(graph, pruning, blocks, own)
+    }
+}
+
+impl<P: Placement, J: EngineFinder<P>> JumpIndex<P, J> {
+    pub(super) fn new(
+        graph: &Arc<GridGraph<P>>,
+        pruning: Arc<Pruning<P>>,
+        finder: J,
+        own: JumpOptions,
+    ) -> Result<Self, Error> {
+        let JumpOptions { heuristic, jump_limit: limit, keep_intermediate } = own;
+        let heuristic = Admissible::new(J::ENGINE, heuristic)?;
+        Ok(Self { graph: Arc::clone(graph), pruning, finder, heuristic, limit, keep_intermediate })
+    }
+}
+
+impl<P: Placement, J: EngineFinder<P> + 'static> EngineIndex for JumpIndex<P, J> {
+    fn search(&self) -> Result<Boxed, Error> {
+        let (graph, pruning) = (Arc::clone(&self.graph), Arc::clone(&self.pruning));
+        let search = JumpPointSearch::with_finder(graph, pruning, self.finder.clone(), self.heuristic)?;
+        let search = search.with_jump_limit(self.limit.map(NonZeroU32::get));
+        Ok(boxed(search.with_intermediate(self.keep_intermediate)))
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        NodeStore::<VertexId>::bytes(self.graph.vertex_count())
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let Some(own) = J::options(engine) else { return Ok(None) };
+        with_options(Self::new(&self.graph, Arc::clone(&self.pruning), self.finder.clone(), own))
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.pruning.memory_bytes() + self.finder.memory_bytes()
+    }
+
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        self.finder.to_bytes(interrupt)
+    }
+}
+
+impl<P: Placement> EngineFinder<P> for StepwiseFinder {
+    const ENGINE: Engine = Engine::Jps;
+
+    fn options(engine: ConfiguredEngine) -> Option<JumpOptions> {
+        if let ConfiguredEngine::Jps(own) = engine { Some(own) } else { None }
+    }
+
+    fn memory_bytes(&self) -> usize {
+        0
+    }
+}
+
+impl<P: Placement> EngineFinder<P> for BlockFinder {
+    const ENGINE: Engine = Engine::JpsBlock;
+
+    fn options(engine: ConfiguredEngine) -> Option<JumpOptions> {
+        if let ConfiguredEngine::JpsBlock(own) = engine { Some(own) } else { None }
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.memory_bytes()
+    }
+}

@@ -1,0 +1,193 @@
+//! The engines: a module for each family prepares an index and makes the searches on it, behind one trait.
+//!
+//! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every
+//! heuristic; the other engines are compiled for one type, [`Admissible`](crate::heuristic::Admissible), that
+//! tells heuristics apart at run time.
+
+mod anya;
+mod canonical;
+mod clusters;
+mod grid_search;
+mod jps_plus;
+mod jumps;
+mod segments;
+mod source;
+mod subgoal_theta;
+mod subgoals;
+mod theta;
+
+use std::{num::NonZeroU32, sync::Arc};
+
+use mediant_grid::{Centers, Corners, Interrupt, Interrupted};
+use mediant_search::Planner as Search;
+
+pub(crate) use self::source::Source;
+use self::{
+    anya::AnyaIndex, canonical::CanonicalIndex, clusters::ClusterIndex, grid_search::GridSearchIndex,
+    jumps::JumpIndex, segments::SegmentIndex, subgoal_theta::SubgoalThetaIndex, subgoals::SubgoalIndex,
+    theta::ThetaIndex,
+};
+use crate::{
+    change::Change,
+    configured::ConfiguredEngine,
+    engine::Engine,
+    erased::Erased,
+    error::Error,
+    goals::HasLabels,
+    option::Levels,
+    setup::Setup,
+    space::{Placed, PlacementOfSpace as _, Space},
+};
+
+/// A search with scratch memory of its own.
+pub(crate) type Boxed = Box<dyn Erased + Send>;
+
+/// Erases the type of a search.
+fn boxed(search: impl Search + Send + 'static) -> Boxed {
+    Box::new(search)
+}
+
+/// An engine with its options, and what it has prepared of a space: what makes the searches of planners.
+/// It never changes. The methods with a body are for engines that save, repair or share what they prepare.
+pub(crate) trait EngineIndex: Send + Sync {
+    /// A search with scratch memory of its own.
+    fn search(&self) -> Result<Boxed, Error>;
+
+    /// The scratch memory that a search takes when it is made, in bytes.
+    fn scratch_bytes(&self) -> usize;
+
+    /// The same index with other options of its engine; `None` for another engine. It is an error if the
+    /// index was prepared by other options.
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error>;
+
+    /// The memory that is used beyond the space, in bytes.
+    fn memory_bytes(&self) -> usize {
+        0
+    }
+
+    /// The bytes of a saved index; `None` for an engine whose index is not saved.
+    fn to_bytes(&self, _interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        Ok(None)
+    }
+
+    /// The index of a space of the same map and rules with the setup's k, which shares what does not depend
+    /// on k; `None` if nothing can be shared.
+    fn for_k(
+        &self,
+        _setup: Setup,
+        _space: &Space,
+        _source: Source<'_>,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        Ok(None)
+    }
+
+    /// The index for the space after a change of a map of the same size; `None` if it must be prepared anew.
+    fn repaired(
+        &self,
+        _change: &Change,
+        _interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        Ok(None)
+    }
+
+    /// The engine with the options by which the index could be prepared again; `None` if no option decides
+    /// what is prepared.
+    fn as_prepared(&self) -> Option<ConfiguredEngine> {
+        None
+    }
+
+    /// The levels of its subgoal graph or clusters, or hub labels.
+    fn levels(&self) -> Option<Levels> {
+        None
+    }
+
+    /// The side of its lowest clusters or of its segments, in cells.
+    fn side(&self) -> Option<u32> {
+        None
+    }
+
+    /// Its hub labels.
+    fn labels(&self) -> Option<&dyn HasLabels> {
+        None
+    }
+
+    /// The engine that searches in place of the one that was asked for, which kept nothing.
+    fn substitute(&self) -> Option<Engine> {
+        None
+    }
+
+    /// Whether it left out what does not pay for a single path.
+    fn is_for_one_path(&self) -> bool {
+        false
+    }
+}
+
+/// Prepares the index of a setup's engine, or reads a saved one. This is the only place where all engines are
+/// told apart.
+pub(crate) fn prepare(
+    setup: Setup,
+    space: &Space,
+    source: Source<'_>,
+) -> Result<Arc<dyn EngineIndex>, Error> {
+    use ConfiguredEngine as E;
+    /// For an engine that takes both placements.
+    macro_rules! either {
+        ($layers:ident => $index:expr) => {
+            match space.placed() {
+                Placed::Centers($layers) => shared($index),
+                Placed::Corners($layers) => shared($index),
+            }
+        };
+    }
+    let (k, engine) = (setup.finite_k(), setup.engine.kind());
+    match setup.engine {
+        E::AStar(own) => either!(layers => GridSearchIndex::a_star(layers.graph(k?)?, own)),
+        E::Dijkstra => either!(layers => GridSearchIndex::dijkstra(layers.graph(k?)?)),
+        E::Wavefront => either!(layers => GridSearchIndex::wavefront(layers.graph(k?)?)),
+        E::Canonical(own) => either!(layers => CanonicalIndex::new(layers.graph(k?)?, own, source)),
+        E::Jps(own) => either!(layers => JumpIndex::stepwise(layers.graph(k?)?, own, source)),
+        E::JpsBlock(own) => either!(layers => JumpIndex::by_blocks(layers.graph(k?)?, own, source)),
+        E::JpsPlus(own) => either!(layers => JumpIndex::by_table(layers.graph(k?)?, own, source)),
+        E::Theta(own) => either!(layers => ThetaIndex::new(layers.graph(k?)?, own)),
+        E::LazyTheta(own) => either!(layers => ThetaIndex::lazy(layers.graph(k?)?, own)),
+        E::Anya => shared(AnyaIndex::new(&Corners::layers(space, engine)?.free, setup.k(), source)),
+        E::Subgoal(own) => either!(layers => {
+            let substitute = |setup, source: Source<'_>| prepare(setup, space, source);
+            SubgoalIndex::new(own, setup.motion, &layers.free, (source, None), substitute)
+        }),
+        E::SubgoalTheta(own) => {
+            shared(SubgoalThetaIndex::new(own, setup.k(), &Corners::layers(space, engine)?.free, source))
+        }
+        E::Hpa(own) => shared(ClusterIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
+        E::Chpa(own) => shared(SegmentIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
+    }
+}
+
+fn shared(index: Result<impl EngineIndex + 'static, Error>) -> Result<Arc<dyn EngineIndex>, Error> {
+    Ok(Arc::new(index?))
+}
+
+/// The same for other options.
+fn with_options(
+    index: Result<impl EngineIndex + 'static, Error>,
+) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+    shared(index).map(Some)
+}
+
+/// Checks that an index has the side that the options name.
+fn check_side(named: Option<NonZeroU32>, found: u32) -> Result<(), Error> {
+    match named.map(NonZeroU32::get) {
+        Some(expected) if expected != found => Err(Error::Side { expected, found }),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that an index has the levels that the options name. More levels than there can be are all levels:
+/// subgoal graphs have one word for both.
+fn check_levels(named: Option<Levels>, found: Option<Levels>) -> Result<(), Error> {
+    let same = |levels| if levels == Levels::Number(NonZeroU32::MAX) { Levels::All } else { levels };
+    match named {
+        Some(expected) if found.map(same) != Some(same(expected)) => Err(Error::Levels { expected, found }),
+        _ => Ok(()),
+    }
+}

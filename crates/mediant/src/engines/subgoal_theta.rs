@@ -1,0 +1,82 @@
+//! Sub-Theta*, on a subgoal graph with levels.
+
+use std::sync::Arc;
+
+use mediant_grid::{Corners, FreeSpace, Interrupt, Interrupted};
+use mediant_moves::K;
+use mediant_subgoal::{SubgoalGraph, SubgoalTheta};
+
+use super::{Boxed, EngineIndex, Source, boxed, check_levels, with_options};
+use crate::{
+    configured::{ConfiguredEngine, SubgoalThetaOptions},
+    error::Error,
+    option::Levels,
+};
+
+/// A free space with its subgoal graph.
+pub(super) struct SubgoalThetaIndex {
+    space: Arc<FreeSpace<Corners>>,
+    graph: Arc<SubgoalGraph<Corners>>,
+}
+
+impl SubgoalThetaIndex {
+    pub(super) fn new(
+        own: SubgoalThetaOptions,
+        k: K,
+        space: &Arc<FreeSpace<Corners>>,
+        source: Source<'_>,
+    ) -> Result<Self, Error> {
+        let graph = match source.bytes {
+            Some(bytes) => SubgoalGraph::from_bytes_interruptible(space, k, bytes, source.interrupt)?,
+            None => {
+                let hierarchy = own.levels().hierarchy().unwrap_or_default();
+                SubgoalGraph::with_progress(space, k, hierarchy, &source.progress, source.interrupt)?
+            }
+        };
+        Self::of(own, space, Arc::new(graph))
+    }
+
+    /// Checks that the graph has the levels that the options name; it needs levels in any case.
+    fn of(
+        own: SubgoalThetaOptions,
+        space: &Arc<FreeSpace<Corners>>,
+        graph: Arc<SubgoalGraph<Corners>>,
+    ) -> Result<Self, Error> {
+        let found = Levels::from(graph.hierarchy());
+        if own.levels.is_some() || found == Levels::Contracted {
+            check_levels(Some(own.levels()), Some(found))?;
+        }
+        Ok(Self { space: Arc::clone(space), graph })
+    }
+}
+
+impl EngineIndex for SubgoalThetaIndex {
+    fn search(&self) -> Result<Boxed, Error> {
+        Ok(boxed(SubgoalTheta::new(Arc::clone(&self.space), Arc::clone(&self.graph))?))
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        SubgoalTheta::scratch_bytes(&self.graph)
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let ConfiguredEngine::SubgoalTheta(own) = engine else { return Ok(None) };
+        with_options(Self::of(own, &self.space, Arc::clone(&self.graph)))
+    }
+
+    fn memory_bytes(&self) -> usize {
+        self.graph.memory_bytes()
+    }
+
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        self.graph.to_bytes_interruptible(interrupt).map(Some)
+    }
+
+    fn as_prepared(&self) -> Option<ConfiguredEngine> {
+        Some(ConfiguredEngine::SubgoalTheta(SubgoalThetaOptions { levels: self.levels() }))
+    }
+
+    fn levels(&self) -> Option<Levels> {
+        Some(self.graph.hierarchy().into())
+    }
+}

@@ -1,0 +1,264 @@
+//! Subgoals: hub labels where they fit in memory, else a subgoal graph, and another engine where both would
+//! be slow.
+
+use std::sync::Arc;
+
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
+use mediant_search::Query;
+use mediant_subgoal::{
+    HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
+};
+
+use super::{Boxed, EngineIndex, Source, boxed, check_levels, prepare, shared, with_options};
+use crate::{
+    choice::Choice,
+    configured::{ConfiguredEngine, SubgoalOptions},
+    engine::Engine,
+    error::Error,
+    goals::{HasLabels, Labeled},
+    index::Index,
+    map::Map,
+    motion::Motion,
+    option::{Levels, Memory},
+    planner::Planner,
+    setup::Setup,
+    space::{PlacementOfSpace, Space},
+};
+
+/// The form in which the subgoals of a free space are kept.
+pub(super) struct SubgoalIndex<P: PlacementOfSpace> {
+    own: SubgoalOptions,
+    motion: Motion,
+    kept: Kept<P>,
+}
+
+#[derive(Clone)]
+enum Kept<P: PlacementOfSpace> {
+    Labels(Labeled<P>),
+    Graph(Arc<FreeSpace<P>>, Arc<SubgoalGraph<P>>),
+    /// Nothing: the substitute searches.
+    Nothing(Identity, Arc<dyn EngineIndex>),
+}
+
+impl<P: PlacementOfSpace> SubgoalIndex<P> {
+    /// Shares what it can with hub labels for another k, which are `beside`; `substitute` prepares the engine
+    /// that searches where nothing is kept.
+    pub(super) fn new(
+        own: SubgoalOptions,
+        motion: Motion,
+        space: &Arc<FreeSpace<P>>,
+        (source, beside): (Source<'_>, Option<&HubLabels<P>>),
+        substitute: impl FnOnce(Setup, Source<'_>) -> Result<Arc<dyn EngineIndex>, Error>,
+    ) -> Result<Self, Error> {
+        let prepared = match source.bytes {
+            Some(bytes) => {
+                PreparedSubgoals::from_bytes_interruptible(space, motion.k, bytes, source.interrupt)?
+            }
+            None => prepared(own, motion, space, source, beside)?,
+        };
+        let free = Arc::clone(space);
+        let kept = match prepared {
+            PreparedSubgoals::Labels(labels) => {
+                Kept::Labels(Labeled { space: free, labels: Arc::new(labels) })
+            }
+            PreparedSubgoals::Contracted(graph) => Kept::Graph(free, Arc::new(graph)),
+            PreparedSubgoals::Nothing(identity) => {
+                let setup = Setup::new(substitute_for(motion), motion);
+                Kept::Nothing(identity, substitute(setup, Source { bytes: None, ..source })?)
+            }
+        };
+        let index = Self::of(own, motion, kept)?;
+        Ok(if source.bytes.is_some() { index.named() } else { index })
+    }
+
+    /// Checks that it has the levels that the options name, and that labels take no more memory than they
+    /// may.
+    fn of(own: SubgoalOptions, motion: Motion, kept: Kept<P>) -> Result<Self, Error> {
+        let index = Self { own, motion, kept };
+        if let Some((most, (found, _))) = own.memory.zip(index.memory_of_labels())
+            && found > most
+        {
+            return Err(Error::Memory { most, found });
+        }
+        check_levels(own.levels, index.levels())?;
+        Ok(index)
+    }
+
+    /// The same with options that name what is kept. Of labels the memory is named if they take more than by
+    /// default: on another map there may be none.
+    fn named(self) -> Self {
+        let SubgoalOptions { levels, memory } = self.own;
+        let own = match (&self.kept, self.memory_of_labels()) {
+            (Kept::Graph(..), _) => SubgoalOptions { levels: self.levels(), memory: None },
+            (Kept::Labels(_), Some((bytes, default))) if levels.is_none() && bytes > default => {
+                SubgoalOptions { levels, memory: memory.or(Some(bytes)) }
+            }
+            _ => self.own,
+        };
+        Self { own, ..self }
+    }
+
+    /// The memory that its hub labels take, and that which they may take if the user names none.
+    fn memory_of_labels(&self) -> Option<(Memory, Memory)> {
+        let Kept::Labels(Labeled { space, labels }) = &self.kept else { return None };
+        let grid = space.grid();
+        let default = Memory::for_labels_of(grid.width(), grid.height());
+        Some((Memory::new(labels.memory_bytes() as u64)?, default))
+    }
+}
+
+impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
+    fn search(&self) -> Result<Boxed, Error> {
+        match &self.kept {
+            Kept::Labels(Labeled { space, labels }) => {
+                Ok(boxed(HubLabelSearch::new(Arc::clone(space), Arc::clone(labels))?))
+            }
+            Kept::Graph(space, graph) => Ok(boxed(SubgoalAStar::new(Arc::clone(space), Arc::clone(graph))?)),
+            Kept::Nothing(_, substitute) => substitute.search(),
+        }
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        match &self.kept {
+            Kept::Labels(Labeled { labels, .. }) => HubLabelSearch::scratch_bytes(labels),
+            Kept::Graph(_, graph) => SubgoalAStar::scratch_bytes(graph),
+            Kept::Nothing(_, substitute) => substitute.scratch_bytes(),
+        }
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let ConfiguredEngine::Subgoal(own) = engine else { return Ok(None) };
+        with_options(Self::of(own, self.motion, self.kept.clone()).map(Self::named))
+    }
+
+    fn memory_bytes(&self) -> usize {
+        match &self.kept {
+            Kept::Labels(Labeled { labels, .. }) => labels.memory_bytes(),
+            Kept::Graph(_, graph) => graph.memory_bytes(),
+            Kept::Nothing(_, substitute) => substitute.memory_bytes(),
+        }
+    }
+
+    fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        Ok(Some(match &self.kept {
+            Kept::Labels(Labeled { labels, .. }) => labels.to_bytes_interruptible(interrupt)?,
+            Kept::Graph(_, graph) => graph.to_bytes_interruptible(interrupt)?,
+            Kept::Nothing(identity, _) => PreparedSubgoals::<P>::Nothing(*identity).to_bytes(),
+        }))
+    }
+
+    /// Labels at corners share what does not depend on k.
+    fn for_k(
+        &self,
+        setup: Setup,
+        space: &Space,
+        source: Source<'_>,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let beside = match &self.kept {
+            Kept::Labels(Labeled { labels, .. }) if P::SHARES_SIGHT => Some(&**labels),
+            _ => None,
+        };
+        let substitute = |setup: Setup, source: Source<'_>| {
+            let shared = match &self.kept {
+                Kept::Nothing(_, known) if self.substitute() == Some(setup.engine.kind()) => {
+                    known.for_k(setup, space, source)?
+                }
+                _ => None,
+            };
+            shared.map_or_else(|| prepare(setup, space, source), Ok)
+        };
+        let free = &P::layers(space, Engine::Subgoal)?.free;
+        shared(Self::new(self.own, setup.motion, free, (source, beside), substitute)).map(Some)
+    }
+
+    fn as_prepared(&self) -> Option<ConfiguredEngine> {
+        Some(ConfiguredEngine::Subgoal(self.own))
+    }
+
+    fn levels(&self) -> Option<Levels> {
+        match &self.kept {
+            Kept::Labels(_) => Some(Levels::Labels),
+            Kept::Graph(_, graph) => Some(graph.hierarchy().into()),
+            Kept::Nothing(..) => None,
+        }
+    }
+
+    fn labels(&self) -> Option<&dyn HasLabels> {
+        match &self.kept {
+            Kept::Labels(labeled) => Some(labeled),
+            Kept::Graph(..) | Kept::Nothing(..) => None,
+        }
+    }
+
+    fn substitute(&self) -> Option<Engine> {
+        match &self.kept {
+            Kept::Labels(_) | Kept::Graph(..) => None,
+            Kept::Nothing(..) => Some(substitute_for(self.motion)),
+        }
+    }
+
+    fn is_for_one_path(&self) -> bool {
+        match &self.kept {
+            Kept::Labels(_) | Kept::Graph(..) => false,
+            Kept::Nothing(_, substitute) => substitute.is_for_one_path(),
+        }
+    }
+}
+
+/// Prepares the subgoals of a free space.
+fn prepared<P: SubgoalPlacement>(
+    SubgoalOptions { levels, memory }: SubgoalOptions,
+    motion: Motion,
+    space: &FreeSpace<P>,
+    source: Source<'_>,
+    beside: Option<&HubLabels<P>>,
+) -> Result<PreparedSubgoals<P>, Error> {
+    let Source { progress, interrupt, .. } = source;
+    let k = motion.k;
+    let most = |default: Memory| memory.unwrap_or(default).as_usize();
+    let Some(levels) = levels else {
+        let grid = space.grid();
+        let most = most(Memory::for_labels_of(grid.width(), grid.height()));
+        // Made only if it is asked. The planner of the library, which is compiled anyway.
+        let mut unprepared = None;
+        let mut counted = |query: Query| {
+            let planner = match &mut unprepared {
+                Some(planner) => planner,
+                none => match substitute_of(motion, space, interrupt) {
+                    Ok(planner) => none.insert(planner),
+                    // Asked again, so that it is known what stopped it.
+                    Err(_) => return interrupt.check("comparing engines").map(|()| None),
+                },
+            };
+            planner.count_work(query, interrupt)
+        };
+        let (progress, counted) = ((&progress, interrupt), &mut counted);
+        return Ok(PreparedSubgoals::compared(space, k, beside, most, progress, counted)?);
+    };
+    let most = most(Memory::MAX);
+    Ok(match (levels.hierarchy(), beside) {
+        (Some(hierarchy), _) => {
+            let graph = SubgoalGraph::with_progress(space, k, hierarchy, &progress, interrupt)?;
+            PreparedSubgoals::Contracted(graph)
+        }
+        (None, None) => PreparedSubgoals::Labels(HubLabels::within(space, k, most, &progress, interrupt)?),
+        (None, Some(labels)) => PreparedSubgoals::Labels(labels.for_k(space, k, most, &progress, interrupt)?),
+    })
+}
+
+/// A planner by the engine that searches where no subgoals are kept: Anya as the typed crate measures it,
+/// with no dead ends left out.
+fn substitute_of<P: SubgoalPlacement>(
+    motion: Motion,
+    space: &FreeSpace<P>,
+    interrupt: &Interrupt,
+) -> Result<Planner, Error> {
+    let space = Space::new(&Map::from(Arc::clone(space.grid())), motion, interrupt)?;
+    let source = Source { for_one_path: true, interrupt, ..Source::new(&|_| {}) };
+    Index::from_source(&space, substitute_for(motion).into(), source)?.try_planner()
+}
+
+/// The engine that searches where no subgoals were kept: the best that prepares little.
+fn substitute_for(motion: Motion) -> Engine {
+    Choice::for_some_paths(motion).engine
+}

@@ -1,0 +1,57 @@
+//! Theta* and Lazy Theta*, which search a grid graph as it is, for paths at any angle.
+
+use std::sync::Arc;
+
+use mediant_grid::{GridGraph, Placement};
+use mediant_search::{LazyThetaStar, ThetaStar};
+
+use super::{Boxed, EngineIndex, boxed, with_options};
+use crate::{
+    configured::{ConfiguredEngine, GuidedOptions},
+    engine::Engine,
+    error::Error,
+    heuristic::Admissible,
+};
+
+/// A grid graph, and which of the engines searches it.
+pub(super) struct ThetaIndex<P: Placement> {
+    graph: Arc<GridGraph<P>>,
+    is_lazy: bool,
+    heuristic: Admissible,
+}
+
+impl<P: Placement> ThetaIndex<P> {
+    /// For Theta*.
+    pub(super) fn new(graph: &Arc<GridGraph<P>>, own: GuidedOptions) -> Result<Self, Error> {
+        let heuristic = Admissible::new(Engine::Theta, own.heuristic)?;
+        Ok(Self { graph: Arc::clone(graph), is_lazy: false, heuristic })
+    }
+
+    /// For Lazy Theta*.
+    pub(super) fn lazy(graph: &Arc<GridGraph<P>>, own: GuidedOptions) -> Result<Self, Error> {
+        let heuristic = Admissible::new(Engine::LazyTheta, own.heuristic)?;
+        Ok(Self { graph: Arc::clone(graph), is_lazy: true, heuristic })
+    }
+}
+
+impl<P: Placement> EngineIndex for ThetaIndex<P> {
+    fn search(&self) -> Result<Boxed, Error> {
+        let graph = Arc::clone(&self.graph);
+        Ok(match self.is_lazy {
+            false => boxed(ThetaStar::new(graph, self.heuristic)),
+            true => boxed(LazyThetaStar::new(graph, self.heuristic)),
+        })
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        ThetaStar::<&GridGraph<P>, ()>::scratch_bytes(&self.graph)
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        with_options(match (self.is_lazy, engine) {
+            (false, ConfiguredEngine::Theta(own)) => Self::new(&self.graph, own),
+            (true, ConfiguredEngine::LazyTheta(own)) => Self::lazy(&self.graph, own),
+            _ => return Ok(None),
+        })
+    }
+}
