@@ -237,7 +237,7 @@ impl Chunk {
     fn add_path(
         &mut self,
         index: usize,
-        answer: Result<Outcome, QueryError>,
+        answer: &Result<Outcome, QueryError>,
         (points, placement, guarantee): (PathPoints, PlacementKind, Guarantee),
     ) {
         let known = self.points.len();
@@ -308,7 +308,7 @@ pub(crate) fn paths(
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = planner.find(queries.request(index, is_watched.then_some(flag)));
-        chunk.add_path(index, found, (points, placement, guarantee));
+        chunk.add_path(index, &found, (points, placement, guarantee));
     };
     let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
     let (points, offsets, distances, statuses) = py.detach(|| {

@@ -119,9 +119,8 @@ pub fn check_setup(
     };
     let keywords = Keywords::read("options", options, OPTIONS)?.and("motion", motion, MOTION)?;
     let call = keywords.call.with_engine(Some(engine));
-    let wrong = match call.motion().map_err(call_error)? {
-        Motion { k, rules, .. } => call.configured(engine).and_then(|own| Setup::new(own, k, rules).check()),
-    };
+    let Motion { k, rules, .. } = call.motion().map_err(call_error)?;
+    let wrong = call.configured(engine).and_then(|own| Setup::new(own, k, rules).check());
     Ok(wrong.err().map(|wrong| wrong.to_string()))
 }
 

@@ -92,7 +92,7 @@ impl Grid {
             let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
             memory::check("the search", vertices(&self.map), bytes)?;
         }
-        let planners = match self.map.keep_planners(&setup, &request.limits()) {
+        let planners = match self.map.keep_planners(&setup, request.limits()) {
             Ok(planners) => planners,
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
