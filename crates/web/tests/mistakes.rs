@@ -47,7 +47,7 @@ fn mistakes_have_names_and_codes() {
         (r#"{"k": 1}"#, "MediantError k"),
         (r#"{"k": 1e300}"#, "MediantError argument"),
         (r#"{"k": "3"}"#, "TypeError "),
-        (r#"{"placement": "centre"}"#, "MediantError argument"),
+        (r#"{"placement": "centre"}"#, "MediantError unknown-name"),
         (r#"{"placement": "center", "gap": "open"}"#, "MediantError argument"),
         (r#"{"placement": "corner", "corners": "one"}"#, "MediantError argument"),
         (r#"{"k": "any", "placement": "center"}"#, "MediantError motion"),
