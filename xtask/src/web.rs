@@ -30,7 +30,7 @@ use parts::{File, write_folder};
 
 /// The crate.
 const CRATE: &str = "mediant-web";
-/// What the module may weigh when it was compressed as web servers do, in bytes. Worlds, scenarios,
+/// The most bytes of the module when it was compressed as web servers do. Worlds, scenarios,
 /// exceptions and certificates, which Rust and Python have, take 10,000 of them.
 const LARGEST: usize = 710_000;
 

@@ -23,7 +23,7 @@ const COMPONENTS: &str = concat!(
     r##""path":{"pivot":{"x":"{{$.event.x + MIDDLE}}","y":"{{$.event.y + MIDDLE}}"},"scale":0.3}}"##,
 );
 
-/// What the visualizer draws with each event, in JSON.
+/// The components for a placement, in JSON.
 pub(super) fn render(placement: PlacementKind) -> String {
     // The middle and the side of a vertex's square, and its first corner. At centers, the unit square at
     // (x, y) is the cell itself.
