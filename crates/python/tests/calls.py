@@ -203,6 +203,7 @@ class Things:
             return by_name[parameter.name]
         kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}
         kinds.update({"Placement": "center", "Corners": "one", "Gap": "open", "Heuristic": "zero"})
+        kinds.update({"Variant": "exact", "Smooth": "taut"})
         kind = parameter.type.split(" | ")[0].split("[")[0]
         if kind == "Literal":
             return ast.literal_eval(parameter.type.split("[")[1].split(",")[0].rstrip("]"))

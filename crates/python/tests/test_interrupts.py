@@ -49,6 +49,13 @@ CALLS = {
     "timeout": ("index = grid.prepare('astar', k=5)", "index.path(start, goal, timeout=1000)"),
     "counters": ("index = grid.prepare('astar', k=5)", "index.find(start, goal, counters=True)"),
     "grid": ("grid.path((0, 0), (0, 0), k=5)", "grid.distance(start, goal, k=5)"),
+    "steps": ("index = grid.prepare('astar', k=5)", "index.search(start, goal).finish()"),
+    "steps with a trace": (
+        "index = grid.prepare('astar', k=5)",
+        "index.search(start, goal, trace=True).finish()",
+    ),
+    "exceptions": ("index = grid.prepare('astar', k=5)", "index.find_except(start, goal, blocked=(1, 1))"),
+    "paths of a grid": ("grid.path((0, 0), (0, 0), k=5)", "grid.paths([start] * 99, goal, k=5)"),
     "prepare": (
         "index = mediant.Grid(blocked[:64, :64]).prepare()",
         "grid.prepare('subgoal', k=4, placement='corner')",

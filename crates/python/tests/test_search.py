@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import signal
 import threading
 import time
 
@@ -140,6 +141,37 @@ def test_a_search_is_of_one_thread_at_a_time():
     [thread.join() for thread in threads]
     assert all("search: a step is at work" in error for error in errors) and len(errors) < 2
     assert search.finish().status == "found"
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGALRM"), reason="needs a signal that a timer sends")
+def test_a_search_goes_on_after_a_signal():
+    """What a signal's handler raises comes out of a step, and no expansion is lost or made twice."""
+
+    class AlarmError(Exception):
+        pass
+
+    def handler(*_):
+        raise AlarmError
+
+    index = mediant.Grid(np.zeros((1024, 1024), dtype=bool)).prepare("dijkstra", k=4)
+    wanted = index.find((0, 0), (1023, 1023), counters=True)
+    search, alarms = index.search((0, 0), (1023, 1023), trace=True), 0
+    known = signal.signal(signal.SIGALRM, handler)
+    try:
+        while search.answer is None:
+            try:
+                try:
+                    signal.setitimer(signal.ITIMER_REAL, 0.03)
+                    search.finish()
+                finally:
+                    signal.setitimer(signal.ITIMER_REAL, 0)
+            except AlarmError:
+                alarms += 1
+    finally:
+        signal.signal(signal.SIGALRM, known)
+    assert alarms > 0
+    assert search.answer.distance == wanted.distance
+    assert search.answer.counters == wanted.counters
 
 
 def test_traces(tmp_path, rng):

@@ -5,7 +5,7 @@ mod js;
 
 use js::{call, class, get, json, numbers, ok, text, thrown};
 use js_sys::{Array, Function, Reflect, Uint8Array, Uint32Array};
-use mediant_web::{Grid, Picture, Trace};
+use mediant_web::{Grid, Picture, Scenario, Trace, World};
 use wasm_bindgen::{JsCast, JsValue};
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
@@ -344,4 +344,32 @@ fn what_needs_no_map() {
             .is_ok_and(|why| why.is_some_and(|why| why.starts_with("anya needs placement corner")))
     );
     assert!(check("astar2", "{}").is_err_and(|error| error.starts_with("MediantError unknown-name")));
+}
+
+/// A map keeps its place in the world, and what is measured in meters is what is measured in cells.
+#[test]
+fn worlds_and_scenarios() {
+    let size = [8.into(), 3.into()];
+    let world = World::new(&size[0], &size[1], &0.5.into(), &json("[1, 2]")).expect("a world");
+    let grid = ok(&grid(), "withWorld", &[world.into()]);
+    let edited = ok(&grid, "editCells", &[json("[[0, 0], [7, 2]]"), JsValue::TRUE]);
+    let space = ok(&edited, "space", &[]);
+    let world = get(&get(&space, "grid"), "world");
+    assert_eq!(numbers_of(&get(&world, "origin")), [1.0, 2.0, 0.0]);
+    assert_eq!(numbers_of(&ok(&world, "vertexAt", &[1.2.into(), 2.2.into()])), [0.0, 2.0]);
+    let meters = ok(&grid, "forDisc", &[json(r#"{"meters": 0.3}"#)]);
+    assert_eq!(get(&meters, "id"), get(&ok(&grid, "forDisc", &[0.6.into()]), "id"));
+    assert_eq!(
+        thrown(&ok(&grid, "withWorld", &[]), "forDisc", &[json(r#"{"meters": 1}"#)]),
+        "MediantError argument"
+    );
+    let text = b"version 1\n0 a.map 8 3 0 0 7 0 11\n";
+    let scenario = JsValue::from(Scenario::read(&bytes(text)).expect("a scenario"));
+    assert_eq!(numbers(&ok(&scenario, "goals", &[])), [7, 0]);
+    ok(&scenario, "check", &[grid]);
+}
+
+/// The numbers of an array.
+fn numbers_of(array: &JsValue) -> Vec<f64> {
+    array.unchecked_ref::<Array>().iter().filter_map(|number| number.as_f64()).collect()
 }

@@ -5,7 +5,9 @@ use std::{
     sync::{Arc, Mutex, MutexGuard},
 };
 
-use mediant::{Limits, Observer, Outcome, Path, Planner, Query, QueryError, Rules, Vertex};
+use mediant::{
+    Counters, Guarantee, Limits, Observer, Outcome, Path, Planner, Query, QueryError, Rules, Vertex,
+};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -58,6 +60,9 @@ pub(crate) struct Search {
     rules: Rules,
 }
 
+/// A guarantee, and counters if events are kept.
+type Promised = (Guarantee, Option<Counters>);
+
 struct State {
     planner: Planner,
     /// For the file of a trace: the first start and the first goal.
@@ -83,6 +88,11 @@ impl State {
         Ok(step)
     }
 
+    /// The guarantee of an answer, and the counters if events are kept.
+    fn promised(&self) -> Promised {
+        (self.planner.guarantee(), self.trace.as_ref().map(Events::counters))
+    }
+
     /// The events, if they are kept and had room.
     fn events(&self) -> PyResult<&Events> {
         let wrong = || argument("trace", "the search keeps no events: make it with trace=True");
@@ -103,13 +113,8 @@ fn idle(state: &Mutex<State>) -> PyResult<MutexGuard<'_, State>> {
 
 impl Search {
     /// An answer with its arrays.
-    fn told(&self, py: Python<'_>, outcome: &Outcome) -> PyResult<Answer> {
-        let (guarantee, counters) = py.detach(|| {
-            let state = idle(&self.state)?;
-            let counters = state.trace.as_ref().map(Events::counters);
-            Ok::<_, PyErr>((state.planner.guarantee(), counters))
-        })?;
-        Answer::new(py, outcome, self.points, self.rules, (guarantee, counters))
+    fn told(&self, py: Python<'_>, outcome: &Outcome, promised: Promised) -> PyResult<Answer> {
+        Answer::new(py, outcome, self.points, self.rules, promised)
     }
 
     /// A path with its array.
@@ -118,8 +123,11 @@ impl Search {
     }
 
     fn step_by(&self, py: Python<'_>, expansions: u64) -> PyResult<Option<Answer>> {
-        let step = py.detach(|| idle(&self.state)?.step(expansions))?;
-        step.map_err(raised)?.map(|outcome| self.told(py, &outcome)).transpose()
+        let (step, promised) = py.detach(|| {
+            let mut state = idle(&self.state)?;
+            Ok::<_, PyErr>((state.step(expansions)?, state.promised()))
+        })?;
+        step.map_err(raised)?.map(|outcome| self.told(py, &outcome, promised)).transpose()
     }
 
     /// The vertices of the events of a kind, in their order.
@@ -156,8 +164,11 @@ impl Search {
     /// The answer, once it is there.
     #[getter]
     fn answer(&self, py: Python<'_>) -> PyResult<Option<Answer>> {
-        let answer = idle(&self.state)?.answer.clone();
-        answer.map(|outcome| self.told(py, &outcome)).transpose()
+        let (answer, promised) = {
+            let state = idle(&self.state)?;
+            (state.answer.clone(), state.promised())
+        };
+        answer.map(|outcome| self.told(py, &outcome, promised)).transpose()
     }
 
     /// Goes on by at most so many expansions.

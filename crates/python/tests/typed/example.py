@@ -21,7 +21,7 @@ many: mediant.Paths = grid.paths([(0, 0)], (4, 8), k=4, max_cost=20, invalid="no
 least: float | None = grid.find((0, 0), (4, 8)).any_angle_lower_bound
 search: mediant.Search = index.search((0, 0), (4, 8), trace=True, timeout=1.0)
 answer: mediant.Answer | None = search.step(10)
-best: NDArray[np.int32] | None = search.best
+best: NDArray[np.int32] = search.best
 spaced: NDArray[np.float64] = mediant.spaced([(0, 0), (4, 8)], 0.5)
 world: mediant.World = mediant.World(0.05, (1, 2), shape=grid.shape)
 scenario: mediant.Scenario = mediant.Scenario.from_bytes(b"version 1\n")
