@@ -166,7 +166,7 @@ mod within;
 
 pub use agent::{Disc, WidestPath};
 pub use answer::{Answer, Status};
-pub use capabilities::Capabilities;
+pub use capabilities::{Capabilities, Promise};
 pub use choice::Choice;
 pub use code::ErrorCode;
 pub use configured::{
