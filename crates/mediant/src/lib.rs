@@ -169,12 +169,13 @@ pub use answer::{Answer, Status};
 pub use capabilities::{Capabilities, Promise};
 pub use choice::Choice;
 pub use code::ErrorCode;
-pub use configured::{
-    CanonicalOptions, ChpaOptions, ConfiguredEngine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
-    SubgoalOptions, SubgoalThetaOptions,
-};
+pub use configured::ConfiguredEngine;
 pub use demand::{Demand, EngineName};
 pub use engine::Engine;
+pub use engines::{
+    CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions, SubgoalOptions,
+    SubgoalThetaOptions,
+};
 pub use error::Error;
 pub use exceptions::{ExceptedAnswer, Exceptions};
 pub use field::{Field, Fields};
