@@ -28,14 +28,18 @@ pub struct Capabilities {
     pub default_k: K,
     /// Whether it searches the grid graph, rather than the free space alone.
     pub grid_graph: bool,
-    /// Its guarantee, for a table. `optimal(k)` at k = ∞ means that no legal path is shorter.
-    pub guarantee: &'static str,
+    /// Its guarantee, with its default options.
+    pub guarantee: Promise,
     /// The guarantee in words, with what was measured where there is none.
     pub promise: &'static str,
     /// Its paper: first author and year.
     pub paper: &'static str,
     /// Its papers, with all authors; `ours` for what is in none.
     pub papers: &'static str,
+    /// Whether its paths leave N(k): they turn at any angle.
+    pub any_angle: bool,
+    /// Whether its paths between centers are only over k = 2, and over k = 3 where corners are never cut.
+    pub few_k_at_centers: bool,
     /// Whether it takes a heuristic that overestimates. Its paths may then be longer; nothing else goes
     /// wrong.
     pub overestimates: bool,
@@ -45,6 +49,29 @@ pub struct Capabilities {
     pub distances: bool,
     /// The version of its saved index; `None` for an engine whose index is not saved.
     pub index: Option<u32>,
+}
+
+/// The promise of an engine for its paths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Promise {
+    /// No path over N(k) is shorter; at k = ∞ no legal path at all.
+    Optimal,
+    /// No path has fewer moves. At k = 2 that is a shortest path.
+    FewestMoves,
+    /// Nothing: paths may be longer than the shortest.
+    Suboptimal,
+}
+
+impl Promise {
+    /// For a table: `optimal(k)`, `optimal(2)`, `suboptimal`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Optimal => "optimal(k)",
+            Self::FewestMoves => "optimal(2)",
+            Self::Suboptimal => "suboptimal",
+        }
+    }
 }
 
 impl Capabilities {
@@ -69,10 +96,12 @@ const SEARCH: Capabilities = Capabilities {
     any: false,
     default_k: K::N8,
     grid_graph: true,
-    guarantee: "optimal(k)",
+    guarantee: Promise::Optimal,
     promise: "optimal over N(k)",
     paper: "",
     papers: "",
+    any_angle: false,
+    few_k_at_centers: false,
     overestimates: false,
     variants: &[],
     distances: false,
@@ -80,15 +109,25 @@ const SEARCH: Capabilities = Capabilities {
 };
 
 /// A search whose paths may be longer than the shortest.
-const THETA: Capabilities = Capabilities { guarantee: "suboptimal", promise: "none", ..SEARCH };
+const THETA: Capabilities =
+    Capabilities { guarantee: Promise::Suboptimal, promise: "none", any_angle: true, ..SEARCH };
 
 /// A search on prepared subgoals.
-const SUBGOALS: Capabilities =
-    Capabilities { grid_graph: false, index: Some(SubgoalGraph::<Corners>::VERSION), ..SEARCH };
+const SUBGOALS: Capabilities = Capabilities {
+    grid_graph: false,
+    few_k_at_centers: true,
+    index: Some(SubgoalGraph::<Corners>::VERSION),
+    ..SEARCH
+};
 
 /// A search on prepared clusters or segments.
-const HIERARCHY: Capabilities =
-    Capabilities { placements: &[PlacementKind::Center], max_k: 3, guarantee: "suboptimal", ..SEARCH };
+const HIERARCHY: Capabilities = Capabilities {
+    placements: &[PlacementKind::Center],
+    max_k: 3,
+    guarantee: Promise::Suboptimal,
+    few_k_at_centers: true,
+    ..SEARCH
+};
 
 /// The engines, a row each, in the order of [`Engine::ALL`].
 const TABLE: [Capabilities; Engine::ALL.len()] = [
@@ -112,7 +151,7 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
     Capabilities {
         title: "Wavefront",
         how: "Spreads ring by ring, and counts moves rather than length.",
-        guarantee: "optimal(2)",
+        guarantee: Promise::FewestMoves,
         promise: "fewest moves; distances to all vertices",
         paper: "Hammoud 2023",
         papers: "Hammoud & Lupin 2023",
@@ -193,8 +232,9 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         title: "Sub-Theta*",
         how: "Theta* over a prepared subgoal graph.",
         placements: &[PlacementKind::Corner],
-        guarantee: "suboptimal",
+        guarantee: Promise::Suboptimal,
         promise: "none",
+        any_angle: true,
         paper: "Uras 2015",
         papers: "Uras & Koenig 2015",
         ..SUBGOALS

@@ -167,16 +167,17 @@ mod within;
 
 pub use agent::{Disc, WidestPath};
 pub use answer::{Answer, Status};
-pub use capabilities::Capabilities;
+pub use capabilities::{Capabilities, Promise};
 pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
-pub use configured::{
-    CanonicalOptions, ChpaOptions, ConfiguredEngine, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
-    SubgoalOptions, SubgoalThetaOptions,
-};
+pub use configured::ConfiguredEngine;
 pub use demand::{Demand, EngineName};
 pub use engine::Engine;
+pub use engines::{
+    CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions, SubgoalOptions,
+    SubgoalThetaOptions,
+};
 pub use error::Error;
 pub use exceptions::{ExceptedAnswer, Exceptions};
 pub use field::{Field, Fields};

@@ -5,7 +5,7 @@ use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 
 use crate::{
-    capabilities::Capabilities,
+    capabilities::{Capabilities, Promise},
     configured::ConfiguredEngine,
     engine::Engine,
     motion::Motion,
@@ -94,7 +94,9 @@ impl Setup {
         let placement = rules.placement();
         match capabilities.placements {
             [needed] if *needed != placement => Err(SetupError::placement(engine, *needed, placement)),
-            _ if !takes_together(engine, k, rules) => Err(SetupError::Centers { engine, k, rules }),
+            _ if capabilities.few_k_at_centers && !is_few_k_at_centers(self.motion) => {
+                Err(SetupError::Centers { engine, k, rules })
+            }
             _ => Ok(()),
         }
     }
@@ -110,14 +112,13 @@ impl Setup {
     /// The guarantee of the planner's paths.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
-        use Engine::{Chpa, Hpa, LazyTheta, SubgoalTheta, Theta, Wavefront};
-        let unsmoothed = match (self.engine.kind(), self.k()) {
-            (Theta | LazyTheta | SubgoalTheta | Hpa | Chpa, _) => Guarantee::Suboptimal,
+        let unsmoothed = match (self.capabilities().guarantee, self.k()) {
+            (Promise::Suboptimal, _) => Guarantee::Suboptimal,
             _ if self.engine.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
-            (Wavefront, k) if k != K::N4 => Guarantee::Suboptimal,
             _ if self.engine.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
-            (_, K::Any) => Guarantee::OptimalAnyAngle,
-            (_, K::Finite(k)) => Guarantee::Optimal(k),
+            (Promise::FewestMoves, k) if k != K::N4 => Guarantee::Suboptimal,
+            (Promise::Optimal | Promise::FewestMoves, K::Any) => Guarantee::OptimalAnyAngle,
+            (Promise::Optimal | Promise::FewestMoves, K::Finite(k)) => Guarantee::Optimal(k),
         };
         if self.smoothing.is_some() { unsmoothed.smoothed() } else { unsmoothed }
     }
@@ -135,9 +136,7 @@ impl Setup {
     /// The k over which its paths are: that of the search, or ∞ if the engine or the smoothing leaves N(k).
     #[must_use]
     pub fn paths(&self) -> K {
-        use Engine::{LazyTheta, SubgoalTheta, Theta};
-        let leaves_neighborhood = matches!(self.engine.kind(), Theta | LazyTheta | SubgoalTheta);
-        if leaves_neighborhood || self.smoothing.is_some() { K::Any } else { self.k() }
+        if self.capabilities().any_angle || self.smoothing.is_some() { K::Any } else { self.k() }
     }
 
     /// Whether its paths are as long as the scenario files say: optimal for k = 3 at centers under `never`.
@@ -147,15 +146,11 @@ impl Setup {
     }
 }
 
-/// Whether an engine that takes the placement, and takes the k, takes both together. Subgoal graphs, clusters
-/// and segments at centers exist only for k = 2, and for k = 3 under `never`.
-fn takes_together(engine: Engine, k: K, rules: Rules) -> bool {
-    if !matches!(engine, Engine::Subgoal | Engine::Hpa | Engine::Chpa) {
-        return true;
-    }
-    match (rules.placement(), k) {
+/// Whether k and rules are among those of an engine with few k at centers.
+fn is_few_k_at_centers(motion: Motion) -> bool {
+    match (motion.rules.placement(), motion.k) {
         (PlacementKind::Corner, _) | (_, K::Finite(FiniteK::N4)) => true,
-        (PlacementKind::Center, K::Finite(FiniteK::N8)) => rules == Rules::Center(CornerRule::Never),
+        (PlacementKind::Center, K::Finite(FiniteK::N8)) => motion.rules == Rules::Center(CornerRule::Never),
         (PlacementKind::Center, _) => false,
     }
 }

@@ -5,8 +5,9 @@ use std::num::NonZeroU32;
 use mediant_search::Smoothing;
 
 use crate::{
-    configured::{ConfiguredEngine, HpaOptions},
+    configured::ConfiguredEngine,
     engine::Engine,
+    engines::HpaOptions,
     motion::Motion,
     option::{EngineOption, Levels},
     setup::Setup,

@@ -89,7 +89,7 @@ fn info(engine: Engine) -> JsValue {
         ("any", Some(can.any.into())),
         ("title", Some(can.title.into())),
         ("how", Some(can.how.into())),
-        ("guarantee", Some(can.guarantee.into())),
+        ("guarantee", Some(can.guarantee.name().into())),
         ("paper", Some(can.paper.into())),
         ("index", Some(can.index.is_some().into())),
         (

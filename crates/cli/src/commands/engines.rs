@@ -28,7 +28,7 @@ pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
             _ => "both".to_owned(),
         };
         let ks = format!("2–{max_k}{}", if any { ", any" } else { "" });
-        table.row([engine.name(), &placement, &ks, guarantee, paper].map(str::to_owned));
+        table.row([engine.name(), &placement, &ks, guarantee.name(), paper].map(str::to_owned));
     }
     table.write(screen)?;
     Ok(writeln!(screen, "\n{NOTES}")?)

@@ -7,14 +7,37 @@ use mediant_search::{Canonical, PaperCanonical, Pruning, parts::NodeStore};
 
 use super::{Boxed, EngineIndex, Source, boxed, with_options};
 use crate::{
-    configured::{CanonicalOptions, ConfiguredEngine},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     heuristic::Admissible,
-    option::Variant,
+    option::{
+        HeuristicName, OptionValue, Variant,
+        description::VARIANT,
+        slot::{Field, Options, Slot},
+    },
     setup_error::SetupError,
     shared_rules::{self, Shared},
 };
+
+/// Options of canonical A*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct CanonicalOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// [`Variant::Exact`] (the default) or [`Variant::Paper`].
+    pub variant: Option<Variant>,
+}
+
+impl Options for CanonicalOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        let variant = OptionValue::Variant(self.variant.unwrap_or(Variant::Exact));
+        vec![
+            Slot::heuristic(&mut self.heuristic),
+            Slot::new(&VARIANT, Field::Variant(&mut self.variant)).with_value(Some(variant)),
+        ]
+    }
+}
 
 /// A grid graph with its pruning rule; without one for the engine as published.
 pub(super) struct CanonicalIndex<P: Placement> {

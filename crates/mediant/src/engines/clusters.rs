@@ -3,17 +3,68 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted};
-use mediant_hierarchy::{ClusterGraph, HpaStar};
+use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
 
-use super::{Boxed, EngineIndex, Source, boxed, check_levels, check_side, shared, with_options};
+use super::{
+    Boxed, EngineIndex, Source, boxed, check_counted, check_levels, check_side, shared, with_options,
+};
 use crate::{
     change::Change,
-    configured::{ConfiguredEngine, HpaOptions},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
-    option::Levels,
+    option::{
+        Levels, OptionValue,
+        description::{LEVELS, SIDE, UNSTRAIGHTENED},
+        slot::{Field, Options, Slot},
+    },
+    setup_error::SetupError,
     space::PlacementOfSpace as _,
 };
+
+/// Options of HPA*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct HpaOptions {
+    /// The number of levels of clusters; that of [`Clustering::default`] by default.
+    pub levels: Option<Levels>,
+    /// The side of the lowest clusters, in cells; that of [`Clustering::default`] by default.
+    pub side: Option<NonZeroU32>,
+    /// Whether to leave out the straightening of paths.
+    pub unstraightened: bool,
+}
+
+impl Options for HpaOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        let Clustering { side, levels } = self.clustering();
+        let levels = NonZeroU32::new(levels).map(Levels::Number);
+        let (levels, side) =
+            (levels.map(OptionValue::Levels), NonZeroU32::new(side).map(OptionValue::Number));
+        vec![
+            Slot::new(&LEVELS, Field::Levels(&mut self.levels)).with_value(levels),
+            Slot::new(&SIDE, Field::Number(&mut self.side)).with_value(side),
+            Slot::new(&UNSTRAIGHTENED, Field::Flag(&mut self.unstraightened)),
+        ]
+    }
+
+    fn check(&self, engine: Engine) -> Result<(), SetupError> {
+        check_counted(engine, self.levels)
+    }
+}
+
+impl HpaOptions {
+    /// The clusters that they name.
+    fn clustering(self) -> Clustering {
+        let default = Clustering::default();
+        let side = self.side.map_or(default.side, NonZeroU32::get);
+        let levels = match self.levels {
+            Some(Levels::Number(number)) => number.get(),
+            // Each level's clusters are twice as long as those of the one below.
+            Some(Levels::All) => (Clustering::MAX_SIDE / side).checked_ilog2().unwrap_or(0) + 1,
+            _ => default.levels,
+        };
+        Clustering { side, levels }
+    }
+}
 
 /// A grid graph with its clusters.
 pub(super) struct ClusterIndex {

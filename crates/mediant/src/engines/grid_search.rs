@@ -7,10 +7,26 @@ use mediant_search::{AStar, Euclidean, Hk, SquaredEuclidean, Wavefront, Zero, pa
 
 use super::{Boxed, EngineIndex, boxed, with_options};
 use crate::{
-    configured::{ConfiguredEngine, GuidedOptions},
+    configured::ConfiguredEngine,
     error::Error,
-    option::HeuristicName,
+    option::{
+        HeuristicName,
+        slot::{Options, Slot},
+    },
 };
+
+/// Options of a search that takes only a heuristic.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct GuidedOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+}
+
+impl Options for GuidedOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        vec![Slot::heuristic(&mut self.heuristic)]
+    }
+}
 
 /// A grid graph, and which of the engines searches it.
 pub(super) struct GridSearchIndex<P: Placement> {

@@ -7,15 +7,38 @@ use mediant_search::JumpTable;
 
 use super::{
     Source,
-    jumps::{EngineFinder, JumpIndex},
+    jumps::{EngineFinder, JumpIndex, JumpOptions},
 };
 use crate::{
-    configured::{ConfiguredEngine, JpsPlusOptions, JumpOptions},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     memory_check,
+    option::{
+        HeuristicName,
+        description::KEEP_INTERMEDIATE,
+        slot::{Field, Options, Slot},
+    },
     shared_rules::{self, Shared},
 };
+
+/// Options of JPS+.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct JpsPlusOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
+    pub keep_intermediate: bool,
+}
+
+impl Options for JpsPlusOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        vec![
+            Slot::heuristic(&mut self.heuristic),
+            Slot::new(&KEEP_INTERMEDIATE, Field::Flag(&mut self.keep_intermediate)),
+        ]
+    }
+}
 
 impl<P: Shared> JumpIndex<P, Arc<JumpTable>> {
     pub(super) fn by_table(

@@ -10,13 +10,39 @@ use mediant_search::{
 
 use super::{Boxed, EngineIndex, Source, boxed, with_options};
 use crate::{
-    configured::{ConfiguredEngine, JumpOptions},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     heuristic::Admissible,
     memory_check,
+    option::{
+        HeuristicName,
+        description::{JUMP_LIMIT, KEEP_INTERMEDIATE},
+        slot::{Field, Options, Slot},
+    },
     shared_rules::{self, Shared},
 };
+
+/// Options of JPS, scanning vertex by vertex or block by block.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct JumpOptions {
+    /// The heuristic; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// The most steps that a jump may take; unlimited by default.
+    pub jump_limit: Option<NonZeroU32>,
+    /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
+    pub keep_intermediate: bool,
+}
+
+impl Options for JumpOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        vec![
+            Slot::heuristic(&mut self.heuristic),
+            Slot::new(&JUMP_LIMIT, Field::Number(&mut self.jump_limit)),
+            Slot::new(&KEEP_INTERMEDIATE, Field::Flag(&mut self.keep_intermediate)),
+        ]
+    }
+}
 
 /// A grid graph with its pruning rule, and what finds jump points.
 pub(super) struct JumpIndex<P: Placement, J> {

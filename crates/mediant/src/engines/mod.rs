@@ -27,6 +27,10 @@ use self::{
     jumps::JumpIndex, segments::SegmentIndex, subgoal_theta::SubgoalThetaIndex, subgoals::SubgoalIndex,
     theta::ThetaIndex,
 };
+pub use self::{
+    canonical::CanonicalOptions, clusters::HpaOptions, grid_search::GuidedOptions, jps_plus::JpsPlusOptions,
+    jumps::JumpOptions, segments::ChpaOptions, subgoal_theta::SubgoalThetaOptions, subgoals::SubgoalOptions,
+};
 use crate::{
     change::Change,
     configured::ConfiguredEngine,
@@ -36,6 +40,7 @@ use crate::{
     goals::HasLabels,
     option::Levels,
     setup::Setup,
+    setup_error::SetupError,
     space::{Placed, PlacementOfSpace as _, Space},
 };
 
@@ -190,4 +195,14 @@ fn check_levels(named: Option<Levels>, found: Option<Levels>) -> Result<(), Erro
         Some(expected) if found.map(same) != Some(same(expected)) => Err(Error::Levels { expected, found }),
         _ => Ok(()),
     }
+}
+
+/// Checks that levels are a number of levels, or all.
+fn check_counted(engine: Engine, levels: Option<Levels>) -> Result<(), SetupError> {
+    let option = match levels {
+        Some(Levels::Contracted) => "contraction hierarchy",
+        Some(Levels::Labels) => "hub labels",
+        Some(Levels::Number(_) | Levels::All) | None => return Ok(()),
+    };
+    Err(SetupError::Option { engine, option, others: Engine::Subgoal.to_string() })
 }

@@ -3,18 +3,92 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted};
-use mediant_hierarchy::{ChpaStar, SegmentGraph};
+use mediant_hierarchy::{ChpaStar, FallbackPolicy, SegmentGraph};
 use mediant_search::{Heuristic, SquaredEuclidean};
 
 use super::{Boxed, EngineIndex, Source, boxed, check_side, shared, with_options};
 use crate::{
     change::Change,
-    configured::{ChpaOptions, ConfiguredEngine},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     heuristic::Admissible,
+    option::{
+        HeuristicName, OptionValue, Variant,
+        description::{DETOUR, SECOND, SIDE, STEP, VARIANT},
+        slot::{Field, Options, Slot},
+    },
+    setup_error::SetupError,
     space::PlacementOfSpace as _,
 };
+
+/// Options of CHPA*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ChpaOptions {
+    /// The heuristic of the first phase; h_k by default.
+    pub heuristic: Option<HeuristicName>,
+    /// [`Variant::Complete`] (the default) or [`Variant::Paper`].
+    pub variant: Option<Variant>,
+    /// The side of the segments, in cells; 3, as in the paper, by default.
+    pub side: Option<NonZeroU32>,
+    /// The heuristic of the second phase; that of the first by default.
+    pub second: Option<HeuristicName>,
+    /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023); 2 by default.
+    pub step: Option<NonZeroU32>,
+    /// How many times h_k the path to a checkpoint may cost before the search skips that checkpoint; that of
+    /// [`FallbackPolicy::default`] by default. Only for [`Variant::Complete`].
+    pub detour: Option<NonZeroU32>,
+}
+
+impl Options for ChpaOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        let variant = OptionValue::Variant(self.variant.unwrap_or(Variant::Complete));
+        let side = self.side.or(NonZeroU32::new(SegmentGraph::PAPER_SIDE)).map(OptionValue::Number);
+        let [_, second] = self.heuristics().map(OptionValue::Heuristic);
+        let step = OptionValue::Number(self.step());
+        let detour = match self.fallback_policy() {
+            FallbackPolicy::Complete { detour } => Some(OptionValue::Number(detour)),
+            FallbackPolicy::Paper => None,
+        };
+        vec![
+            Slot::heuristic(&mut self.heuristic),
+            Slot::new(&VARIANT, Field::Variant(&mut self.variant)).with_value(Some(variant)),
+            Slot::new(&SIDE, Field::Number(&mut self.side)).with_value(side),
+            Slot::new(&SECOND, Field::Heuristic(&mut self.second)).with_value(Some(second)),
+            Slot::new(&STEP, Field::Number(&mut self.step)).with_value(Some(step)),
+            Slot::new(&DETOUR, Field::Number(&mut self.detour)).with_value(detour),
+        ]
+    }
+
+    fn check(&self, engine: Engine) -> Result<(), SetupError> {
+        match (self.variant, self.detour) {
+            (Some(Variant::Paper), Some(_)) => Err(SetupError::DetourAsPublished { engine }),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl ChpaOptions {
+    /// The heuristics of the first and of the second phase.
+    fn heuristics(self) -> [HeuristicName; 2] {
+        let first = self.heuristic.unwrap_or_default();
+        [first, self.second.unwrap_or(first)]
+    }
+
+    /// Every how many segments there is a checkpoint.
+    fn step(self) -> NonZeroU32 {
+        self.step.unwrap_or(NonZeroU32::MIN.saturating_add(1))
+    }
+
+    /// The search's fallback where its plan fails.
+    fn fallback_policy(self) -> FallbackPolicy {
+        match self.detour {
+            _ if self.variant == Some(Variant::Paper) => FallbackPolicy::Paper,
+            Some(detour) => FallbackPolicy::Complete { detour },
+            None => FallbackPolicy::default(),
+        }
+    }
+}
 
 /// A grid graph with its segments.
 pub(super) struct SegmentIndex {

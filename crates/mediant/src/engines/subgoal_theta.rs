@@ -1,17 +1,48 @@
 //! Sub-Theta*, on a subgoal graph with levels.
 
-use std::sync::Arc;
+use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Corners, FreeSpace, Interrupt, Interrupted};
 use mediant_moves::K;
 use mediant_subgoal::{SubgoalGraph, SubgoalTheta};
 
-use super::{Boxed, EngineIndex, Source, boxed, check_levels, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, check_counted, check_levels, with_options};
 use crate::{
-    configured::{ConfiguredEngine, SubgoalThetaOptions},
+    configured::ConfiguredEngine,
+    engine::Engine,
     error::Error,
-    option::Levels,
+    option::{
+        Levels, OptionValue,
+        description::LEVELS,
+        slot::{Field, Options, Slot},
+    },
+    setup_error::SetupError,
 };
+
+/// Options of Sub-Theta*.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SubgoalThetaOptions {
+    /// The levels of the graph; 2 by default.
+    pub levels: Option<Levels>,
+}
+
+impl Options for SubgoalThetaOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        let levels = OptionValue::Levels(self.levels());
+        vec![Slot::new(&LEVELS, Field::Levels(&mut self.levels)).with_value(Some(levels))]
+    }
+
+    fn check(&self, engine: Engine) -> Result<(), SetupError> {
+        check_counted(engine, self.levels)
+    }
+}
+
+impl SubgoalThetaOptions {
+    /// The levels of the graph.
+    fn levels(self) -> Levels {
+        self.levels.unwrap_or(Levels::Number(NonZeroU32::MIN.saturating_add(1)))
+    }
+}
 
 /// A free space with its subgoal graph.
 pub(super) struct SubgoalThetaIndex {

@@ -12,18 +12,55 @@ use mediant_subgoal::{
 use super::{Boxed, EngineIndex, Source, boxed, check_levels, prepare, shared, with_options};
 use crate::{
     choice::Choice,
-    configured::{ConfiguredEngine, SubgoalOptions},
+    configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     goals::{HasLabels, Labeled},
     index::Index,
     map::Map,
     motion::Motion,
-    option::{Levels, Memory},
+    option::{
+        Levels, Memory,
+        description::{LEVELS, MEMORY},
+        slot::{Field, Options, Slot},
+    },
     planner::Planner,
     setup::Setup,
+    setup_error::SetupError,
     space::{PlacementOfSpace, Space},
 };
+
+/// Options of subgoals.
+///
+/// Whatever they are, paths are optimal. If no levels are named, the map decides: hub labels if they fit in
+/// `memory`, else a contraction hierarchy; where that would be slow, as on noise, nothing is kept, and
+/// another engine searches ([`Index::searched_by`](crate::Index::searched_by)).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct SubgoalOptions {
+    /// The levels of the graph, a contraction hierarchy, or hub labels; by default the map decides.
+    pub levels: Option<Levels>,
+    /// The memory that hub labels may take. By default that of [`Memory::for_labels_of`] if no levels are
+    /// named, and as much as they need if [`Levels::Labels`] are named.
+    pub memory: Option<Memory>,
+}
+
+impl Options for SubgoalOptions {
+    fn slots(&mut self) -> Vec<Slot<'_>> {
+        vec![
+            Slot::new(&LEVELS, Field::Levels(&mut self.levels)),
+            Slot::new(&MEMORY, Field::Memory(&mut self.memory)),
+        ]
+    }
+
+    fn check(&self, _engine: Engine) -> Result<(), SetupError> {
+        match self.levels {
+            Some(levels) if levels != Levels::Labels && self.memory.is_some() => {
+                Err(SetupError::MemoryWithoutLabels { levels })
+            }
+            _ => Ok(()),
+        }
+    }
+}
 
 /// The form in which the subgoals of a free space are kept.
 pub(super) struct SubgoalIndex<P: PlacementOfSpace> {

@@ -5,13 +5,8 @@ use std::sync::Arc;
 use mediant_grid::{GridGraph, Placement};
 use mediant_search::{LazyThetaStar, ThetaStar};
 
-use super::{Boxed, EngineIndex, boxed, with_options};
-use crate::{
-    configured::{ConfiguredEngine, GuidedOptions},
-    engine::Engine,
-    error::Error,
-    heuristic::Admissible,
-};
+use super::{Boxed, EngineIndex, boxed, grid_search::GuidedOptions, with_options};
+use crate::{configured::ConfiguredEngine, engine::Engine, error::Error, heuristic::Admissible};
 
 /// A grid graph, and which of the engines searches it.
 pub(super) struct ThetaIndex<P: Placement> {

@@ -3,6 +3,7 @@
 pub(crate) mod description;
 mod levels;
 mod memory;
+pub(crate) mod slot;
 mod value;
 
 pub use description::EngineOption;

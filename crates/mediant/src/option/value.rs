@@ -107,6 +107,24 @@ impl ValueKind {
     }
 }
 
+impl OptionValue {
+    pub(crate) const fn number(self) -> Option<NonZeroU32> {
+        if let Self::Number(number) = self { Some(number) } else { None }
+    }
+
+    pub(crate) const fn heuristic(self) -> Option<HeuristicName> {
+        if let Self::Heuristic(name) = self { Some(name) } else { None }
+    }
+
+    pub(crate) const fn variant(self) -> Option<Variant> {
+        if let Self::Variant(variant) = self { Some(variant) } else { None }
+    }
+
+    pub(crate) const fn levels(self) -> Option<Levels> {
+        if let Self::Levels(levels) = self { Some(levels) } else { None }
+    }
+}
+
 /// As [`EngineOption::parse`](super::EngineOption::parse) reads it.
 impl fmt::Display for OptionValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

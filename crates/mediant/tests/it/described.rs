@@ -43,7 +43,7 @@ fn description() -> Value {
             "any": can.any,
             "title": can.title,
             "how": can.how,
-            "guarantee": can.guarantee,
+            "guarantee": can.guarantee.name(),
             "promise": can.promise,
             "paper": can.paper,
             "papers": can.papers,
