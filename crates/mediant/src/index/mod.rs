@@ -3,7 +3,12 @@
 mod file;
 mod repair;
 
-use std::{fmt, num::NonZeroU32, sync::Arc};
+use std::{
+    fmt,
+    num::NonZeroU32,
+    panic::{RefUnwindSafe, UnwindSafe},
+    sync::Arc,
+};
 
 use mediant_grid::{Identity, Interrupt, names};
 use mediant_moves::K;
@@ -298,6 +303,10 @@ impl Index {
         }
     }
 }
+
+// An index never changes, so a panic elsewhere cannot leave it half changed.
+impl UnwindSafe for Index {}
+impl RefUnwindSafe for Index {}
 
 impl fmt::Debug for Index {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
