@@ -42,17 +42,17 @@ const LAYERS: [Layer; 16] = [
     ),
     layer(
         "mediant-cli",
-        &[MOVES, GRID, SEARCH, LIBRARY, FORMATS],
-        "the program is thin: it shows what the library and the files hold",
+        &[LIBRARY, FORMATS],
+        "the program is thin: it shows what the library and the files hold, and says it in the library's words",
     ),
     layer(
         "mediant-python",
-        &[MOVES, LIBRARY, FORMATS],
+        &[LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),
     layer(
         "mediant-web",
-        &[MOVES, LIBRARY, FORMATS],
+        &[LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),
     // Tests and measurements.
