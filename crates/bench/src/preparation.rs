@@ -1,6 +1,9 @@
 //! Preparation before the first query: its time and memory.
 
-use mediant::{EngineOption, Index, Levels, OptionValue, Space};
+use mediant::{
+    Index, Space,
+    options::{EngineOption, Levels, OptionValue},
+};
 use serde::{Deserialize, Serialize};
 
 /// The preparation of one of our engines before its first query: its search space and index.

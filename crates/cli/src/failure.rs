@@ -2,7 +2,7 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use mediant::{Engine, PlacementKind, SetupError, Vertex, call::CallError};
+use mediant::{Engine, PlacementKind, Vertex, call::CallError, errors::SetupError};
 use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError, WriteError};
 
 use crate::terminal::message::say_error;
@@ -41,7 +41,7 @@ pub(crate) enum Failure {
         "the scenario is for the map `{expected}` and does not fit `{found}`, where the {end} {at} of \
          instance {index} is blocked; give the map that it was made for, under that name"
     )]
-    MisfitScenario { expected: String, found: String, end: mediant::End, at: Vertex, index: usize },
+    MisfitScenario { expected: String, found: String, end: mediant::search::End, at: Vertex, index: usize },
     #[error("there is no bundled map `{name}`; there are {known}")]
     NoSuchMap { name: String, known: String },
     #[error("the map {map} has no place in the world: leave --world out, or give the YAML file of a ROS map")]

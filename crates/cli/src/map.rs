@@ -3,8 +3,9 @@
 use std::{path::Path, sync::Arc};
 
 use mediant::{
-    Grid, Motion, PlacementKind, Vertex,
+    Motion, PlacementKind, Vertex,
     files::{Tiles, WorldFrame},
+    grid::Grid,
 };
 use mediant_formats::{Ground, MapFile, ReadError, Scenario, read_map};
 

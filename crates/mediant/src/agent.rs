@@ -30,7 +30,7 @@ impl Map {
     ///
     /// # Errors
     /// [`Error::Size`] for a radius that is negative or not finite; [`Error::K`] or
-    /// [`SetupError::Motion`](crate::SetupError::Motion) for a number that is no k.
+    /// [`SetupError::Motion`](crate::errors::SetupError::Motion) for a number that is no k.
     pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Self, Error> {
         let motion = motion.into();
         motion.check_k()?;

@@ -22,7 +22,7 @@ use crate::{
 ///
 /// ```
 /// use std::num::NonZeroU32;
-/// use mediant::{ConfiguredEngine, Engine, JumpOptions};
+/// use mediant::{Engine, options::{ConfiguredEngine, JumpOptions}};
 ///
 /// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default()
 /// }); assert_eq!(engine.kind(), Engine::Jps);

@@ -158,7 +158,7 @@
 //! is an observer that writes files for the Posthoc visualizer.
 //!
 //! ```
-//! use mediant::{Engine, Map, Motion, NodeEvent, Observer, Query, Vertex};
+//! use mediant::{Engine, Map, Motion, Query, Vertex, search::{NodeEvent, Observer}};
 //!
 //! struct Seen(Vec<Vertex>);
 //!

@@ -127,7 +127,7 @@ impl Demand {
 /// ([`Space::engine_for`]).
 ///
 /// ```
-/// use mediant::{Engine, EngineName};
+/// use mediant::{Engine, options::EngineName};
 /// assert_eq!("auto".parse(), Ok(EngineName::Auto));
 /// assert_eq!("JPS+".parse(), Ok(EngineName::Engine(Engine::JpsPlus)));
 /// ```

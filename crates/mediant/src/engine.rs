@@ -8,7 +8,7 @@ use mediant_grid::names;
 /// star may be there or not.
 ///
 /// ```
-/// use mediant::{ConfiguredEngine, Engine};
+/// use mediant::{Engine, options::ConfiguredEngine};
 /// assert_eq!("jps-block".parse(), Ok(Engine::JpsBlock));
 /// assert_eq!(["A*", "a-star", "astar"].map(|text| text.parse().ok()), [Some(Engine::AStar); 3]);
 /// assert_eq!(["JPS+", "jps_plus"].map(|text| text.parse().ok()), [Some(Engine::JpsPlus); 2]);

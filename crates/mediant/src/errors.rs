@@ -4,7 +4,7 @@
 pub use mediant_formats::{
     IndexError, MapError, RasterError, ReadError, RosError, TileError, TilesError, WriteError,
 };
-pub use mediant_grid::{GridError, Mismatch, SizeError};
+pub use mediant_grid::{GridError, Mismatch, SizeError, names::UnknownName};
 pub use mediant_hierarchy::HierarchyError;
 pub use mediant_moves::KError;
 pub use mediant_search::{BrokenPath, JoinError, JumpError, QueryError, SpacingError};

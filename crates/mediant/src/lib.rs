@@ -89,8 +89,8 @@
 //! ```
 //!
 //! Nothing that was prepared for one map, rule or k is ever used with another. Maps, spaces and indexes carry
-//! their [`Identity`]; whatever joins two of them compares these in constant time, and answers with
-//! [`Error::Mismatch`], which names both.
+//! their [`Identity`](grid::Identity); whatever joins two of them compares these in constant time, and
+//! answers with [`Error::Mismatch`], which names both.
 //!
 //! # What else there is
 //!
@@ -105,10 +105,11 @@
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`] |
 //! | make paths shorter, at any angle | [`Smoothing`], [`Index::with_smoothing`] |
-//! | choose engines and options by text | [`Setup`], [`EngineName`] |
+//! | choose engines and options by text | [`Setup`], [`options`] |
 //!
 //! # Features
 //!
+//! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
 //! - `serde`: vertices, rectangles, motion, queries, paths and setups are read and written.
@@ -139,6 +140,7 @@ mod exceptions;
 mod field;
 pub mod files;
 mod goals;
+pub mod grid;
 mod heuristic;
 mod index;
 mod limits;
@@ -146,12 +148,14 @@ mod map;
 mod memory_check;
 mod motion;
 mod option;
+pub mod options;
 mod path_check;
 mod planner;
 mod planners;
 #[cfg(doctest)]
 mod readme;
 mod recent;
+pub mod search;
 #[cfg(feature = "serde")]
 mod serialized;
 mod setup;
@@ -165,52 +169,31 @@ mod text;
 mod trace;
 mod within;
 
-pub use agent::{Disc, WidestPath};
+pub use agent::Disc;
 pub use answer::{Answer, Status};
-pub use capabilities::{Capabilities, Promise};
 pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
-pub use configured::ConfiguredEngine;
-pub use demand::{Demand, EngineName};
+pub use demand::Demand;
 pub use engine::Engine;
-pub use engines::{
-    CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions, SubgoalOptions,
-    SubgoalThetaOptions,
-};
 pub use error::Error;
-pub use exceptions::{ExceptedAnswer, Exceptions};
-pub use field::{Field, Fields};
+pub use exceptions::Exceptions;
+pub use field::Field;
 pub use goals::Goals;
 pub use index::{Index, Origin};
 pub use limits::Limits;
 pub use map::Map;
 #[doc(hidden)]
 pub use mediant_grid::names;
-pub use mediant_grid::{
-    Clearance, CornerRule, DiagonalGap, Fit, Grid, Identity, MapId, Mismatch, Obstruction, Outside,
-    PlacementKind, Rectangle, Rules, Vertex, names::UnknownName,
-};
+pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rectangle, Rules, Vertex};
 /// The mathematics of the neighborhoods: moves, h_k, bounds.
 pub use mediant_moves as moves;
-pub use mediant_moves::{Cost, FiniteK, K, Vector};
-pub use mediant_search::{
-    BrokenPath, Counters, End, Guarantee, Limit, NodeEvent, Observer, Outcome, Path, Query, QueryError,
-    Request, Smoothing, Stopped, Turn,
-};
-pub use mediant_subgoal::{Progress, Stage};
-pub use motion::{IntoK, Motion};
-pub use option::{
-    EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
-    Variant,
-};
+pub use mediant_moves::{Cost, FiniteK, K};
+pub use mediant_search::{Guarantee, Limit, Outcome, Path, Query, Request, Smoothing, Stopped};
+pub use motion::Motion;
 pub use planner::Planner;
-pub use planners::{BatchProgress, Planners};
+pub use planners::Planners;
 pub use setup::Setup;
-pub use setup_error::SetupError;
 pub use space::Space;
 pub use table::Table;
-pub use text::TextError;
-#[cfg(feature = "trace")]
-pub use trace::Tracer;
 pub use within::Within;

@@ -12,7 +12,7 @@ impl Space {
     /// without.
     ///
     /// ```
-    /// use mediant::{BrokenPath, K, Map, Motion, Rectangle};
+    /// use mediant::{K, Map, Motion, Rectangle, errors::BrokenPath};
     /// let space = Map::from_rows(["....", "...."])?.space(Motion::centers(K::N8))?;
     /// let path = space.path((0, 0), (3, 0))?.expect("there is a way");
     /// assert_eq!(space.check(&path), Ok(()));

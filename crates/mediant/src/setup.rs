@@ -20,8 +20,8 @@ use crate::{
 /// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners. Left out, it is `never`,
 ///   or `open` for K = `any` and for an engine that takes only corners. So `astar` solves the scenario files'
 ///   own problem.
-/// - An OPTION is one of the engine's ([`EngineOption::ALL`](crate::EngineOption::ALL)), or `smooth` or
-///   `taut`: paths are smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
+/// - An OPTION is one of the engine's ([`EngineOption::ALL`](crate::options::EngineOption::ALL)), or `smooth`
+///   or `taut`: paths are smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
 ///
 /// ```
 /// use mediant::Setup;
@@ -29,7 +29,7 @@ use crate::{
 /// assert_eq!(setup.to_string(), "astar:5:open,euclidean");
 /// assert_eq!("anya".parse::<Setup>()?.to_string(), "anya:any:open");
 /// assert!(!setup.solves_scenarios() && "astar".parse::<Setup>()?.solves_scenarios());
-/// # Ok::<(), mediant::TextError>(())
+/// # Ok::<(), mediant::errors::TextError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {

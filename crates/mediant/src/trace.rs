@@ -12,7 +12,7 @@ use mediant_search::{NodeEvent, Observer, Outcome, Path, Query};
 /// Needs the feature `trace`.
 ///
 /// ```
-/// use mediant::{K, Map, Motion, Query, Tracer};
+/// use mediant::{K, Map, Motion, Query, search::Tracer};
 ///
 /// let space = Map::from_rows(["...", ".#."])?.space(Motion::centers(K::N8))?;
 /// let mut planner = space.planner(space.engine())?;

@@ -10,8 +10,8 @@ use std::{
 };
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, ErrorCode, FiniteK, Index, K, Levels, Limits, Map, Motion, Planner,
-    Query, Rules, Space,
+    Engine, Error, ErrorCode, FiniteK, Index, K, Limits, Map, Motion, Planner, Query, Rules, Space,
+    options::{ConfiguredEngine, Levels},
 };
 
 /// The bytes that are allocated, by all threads.

@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Counters, Error, ErrorCode, Guarantee, Limit, Outcome, Rules, Stopped};
+use mediant::{Error, ErrorCode, Guarantee, Limit, Outcome, Rules, Stopped, search::Counters};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 

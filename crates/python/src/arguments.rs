@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, str::FromStr};
 
-use mediant::{UnknownName, Vertex};
+use mediant::{Vertex, errors::UnknownName};
 use numpy::{PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{
     exceptions::{PyOverflowError, PyTypeError},

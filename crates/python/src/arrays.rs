@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Grid, Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS, names};
+use mediant::{Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS, grid::Grid, names};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,

@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Index, Levels, Limits};
+use mediant::{Index, Limits, options::Levels};
 use pyo3::prelude::*;
 
 /// How often signals are looked at.

@@ -11,8 +11,8 @@ use std::{
 };
 
 use mediant::{
-    Answer, Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, QueryError, Request,
-    Status, Vertex, names,
+    Answer, Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, Request, Status,
+    Vertex, errors::QueryError, names,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;

@@ -1,6 +1,10 @@
 //! The library's errors as the exceptions of `mediant.errors`.
 
-use mediant::{BrokenPath, Error, ErrorCode, QueryError, Vertex, call::Spelling};
+use mediant::{
+    Error, ErrorCode, Vertex,
+    call::Spelling,
+    errors::{BrokenPath, QueryError},
+};
 use pyo3::{
     call::PyCallArgs,
     exceptions::{PyException, PyMemoryError, PyTypeError},
@@ -146,7 +150,7 @@ const fn in_rows(error: QueryError) -> QueryError {
 
 /// The error, with its points as (row, column).
 fn broken_in_rows(error: BrokenPath) -> BrokenPath {
-    use mediant::Obstruction;
+    use mediant::grid::Obstruction;
     match error {
         BrokenPath::Outside { index, at, holds } => BrokenPath::Outside { index, at: swapped(at), holds },
         BrokenPath::Blocked { end, at, holds } => BrokenPath::Blocked { end, at: swapped(at), holds },

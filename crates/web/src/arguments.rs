@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use js_sys::{Array, Int32Array, Uint8Array, Uint8ClampedArray};
-use mediant::{ErrorCode, UnknownName, Vertex};
+use mediant::{ErrorCode, Vertex, errors::UnknownName};
 use wasm_bindgen::{JsCast, convert::TryFromJsValue, prelude::*};
 
 use crate::errors::{argument, coded, no_memory, raised_for, wrong_type};

@@ -1,6 +1,6 @@
 //! The library's errors as those of JavaScript.
 
-use mediant::{BrokenPath, Error, ErrorCode, call::Spelling};
+use mediant::{Error, ErrorCode, call::Spelling, errors::BrokenPath};
 use wasm_bindgen::prelude::*;
 
 /// The error for a mistake that the library found: an `Error` with the name `MediantError` and the `code` of

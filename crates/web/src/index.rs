@@ -1,7 +1,7 @@
 //! Indexes: the preparation of an engine.
 
 use js_sys::Uint8Array;
-use mediant::{Change, Index as Inner, Levels, files::WorldFrame};
+use mediant::{Change, Index as Inner, files::WorldFrame, options::Levels};
 use wasm_bindgen::prelude::*;
 
 use crate::{

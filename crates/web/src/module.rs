@@ -2,7 +2,8 @@
 
 use js_sys::{Array, Float64Array, Int32Array};
 use mediant::{
-    ConfiguredEngine, Engine, ErrorCode, Guarantee, Motion, Path, Setup, call::Spelling, moves::Neighborhood,
+    Engine, ErrorCode, Guarantee, Motion, Path, Setup, call::Spelling, moves::Neighborhood,
+    options::ConfiguredEngine,
 };
 use wasm_bindgen::{JsCast, prelude::*};
 

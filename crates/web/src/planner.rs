@@ -6,7 +6,9 @@ use std::{
 };
 
 use js_sys::{Float64Array, Int32Array};
-use mediant::{Error, Exceptions, Guarantee, Outcome, Planner as Inner, Query, QueryError, Space, Stopped};
+use mediant::{
+    Error, Exceptions, Guarantee, Outcome, Planner as Inner, Query, Space, Stopped, errors::QueryError,
+};
 use wasm_bindgen::prelude::*;
 
 use crate::{

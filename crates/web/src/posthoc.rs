@@ -2,7 +2,10 @@
 
 use std::io::{self, Write};
 
-use mediant::{Observer, Query, Tracer};
+use mediant::{
+    Query,
+    search::{Observer, Tracer},
+};
 use wasm_bindgen::prelude::*;
 
 use crate::{

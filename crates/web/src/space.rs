@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 
 use js_sys::{Function, Int32Array, JsString};
-use mediant::{Demand, Limits, Map, Motion, Path, Progress, Space as Inner, Vertex, files::WorldFrame};
+use mediant::{
+    Demand, Limits, Map, Motion, Path, Space as Inner, Vertex, files::WorldFrame, search::Progress,
+};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{

@@ -6,7 +6,10 @@ use std::{
 };
 
 use js_sys::Uint32Array;
-use mediant::{NodeEvent, Observer, PlacementKind, Space as Inner, Vertex};
+use mediant::{
+    PlacementKind, Space as Inner, Vertex,
+    search::{NodeEvent, Observer},
+};
 use wasm_bindgen::prelude::*;
 
 use crate::{

@@ -4,7 +4,9 @@
 //! A change of an engine that changes its paths or its counts changes the table: the failure prints the new
 //! one.
 
-use mediant::{CornerRule, DiagonalGap, Engine, K, Map, Motion, Outcome, Query, QueryError, Rules, Setup};
+use mediant::{
+    CornerRule, DiagonalGap, Engine, K, Map, Motion, Outcome, Query, Rules, Setup, errors::QueryError,
+};
 use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test;

@@ -72,7 +72,10 @@ pub(crate) enum Command {
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
-    use mediant::{ConfiguredEngine, Engine, Memory};
+    use mediant::{
+        Engine,
+        options::{ConfiguredEngine, Memory},
+    };
 
     use super::*;
 

@@ -11,7 +11,7 @@ use clap::{
     Arg, Command,
     builder::{PossibleValue, PossibleValuesParser, TypedValueParser},
 };
-use mediant::{FiniteK, UnknownName, Vertex};
+use mediant::{FiniteK, Vertex, errors::UnknownName};
 
 /// Reads one of these values by its name, or as people write it (`A*`). Any other text gets clap's error,
 /// which suggests the one that is most like it.

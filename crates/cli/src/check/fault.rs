@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant::{BrokenPath, K, Path, Space, Vertex};
+use mediant::{K, Path, Space, Vertex, errors::BrokenPath};
 
 /// A fault of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::{io::Write, path::Path};
 
-use mediant::Grid;
+use mediant::grid::Grid;
 use mediant_formats::{MapFile, Raster, RasterFormat, RosError, RosMap};
 
 use crate::{

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use mediant::{Capabilities, Engine};
+use mediant::{Engine, options::Capabilities};
 
 use crate::{
     failure::Failure,

@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use mediant::EngineOption;
+use mediant::options::EngineOption;
 
 use crate::{
     args::{Asked, Format, RunArgs},

@@ -6,7 +6,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use mediant::{Choice, Demand, EngineName, EngineOption, Error, Index, PlacementKind, ValueKind, Vertex};
+use mediant::{
+    Choice, Demand, Error, Index, PlacementKind, Vertex,
+    options::{EngineName, EngineOption, ValueKind},
+};
 use serde::Serialize;
 
 use crate::{

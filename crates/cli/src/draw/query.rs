@@ -5,7 +5,10 @@ use std::{
     path::Path,
 };
 
-use mediant::{NodeEvent, Observer, Planner, Request, Setup, Vertex};
+use mediant::{
+    Planner, Request, Setup, Vertex,
+    search::{NodeEvent, Observer},
+};
 use mediant_formats::{Picture, PictureError};
 
 use super::{braille::Stroke, picture::Canvas, theme::INKS};

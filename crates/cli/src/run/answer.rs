@@ -3,8 +3,10 @@
 use std::{fmt, time::Duration};
 
 use mediant::{
-    Choice, Counters, Engine, EngineOption, ErrorCode, Guarantee, OptionValue, Path, PlacementKind,
-    QueryError, Request, Rules, Setup, Stopped, Vertex,
+    Choice, Engine, ErrorCode, Guarantee, Path, PlacementKind, Request, Rules, Setup, Stopped, Vertex,
+    errors::QueryError,
+    options::{EngineOption, OptionValue},
+    search::Counters,
 };
 
 use super::{queries::Item, query_error::explain};

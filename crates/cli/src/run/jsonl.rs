@@ -10,8 +10,10 @@ use std::{
 };
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, EngineName, EngineOption, K, Levels, OptionValue, Path, PlacementKind,
-    Rules, Smoothing, ValueKind, Vertex, call::Wishes, files::WorldFrame,
+    CornerRule, DiagonalGap, Engine, K, Path, PlacementKind, Rules, Smoothing, Vertex,
+    call::Wishes,
+    files::WorldFrame,
+    options::{EngineName, EngineOption, Levels, OptionValue, ValueKind},
 };
 use serde::Serialize;
 use serde_json::Value;

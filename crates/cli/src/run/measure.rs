@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant::{Counters, Outcome, Planner, Query, QueryError, Request};
+use mediant::{Outcome, Planner, Query, Request, errors::QueryError, search::Counters};
 
 /// The answer of a planner, with counts and time.
 pub(crate) struct Measured {

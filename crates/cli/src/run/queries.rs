@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant::{End, Grid, PlacementKind, Query, Vertex};
+use mediant::{PlacementKind, Query, Vertex, grid::Grid, search::End};
 use mediant_formats::{Instance, Scenario};
 
 use crate::{

@@ -1,6 +1,6 @@
 //! Query errors in words.
 
-use mediant::{Grid, PlacementKind, QueryError, Vertex};
+use mediant::{PlacementKind, Vertex, errors::QueryError, grid::Grid};
 
 use super::distances::rounded;
 use crate::map::NamedMap;

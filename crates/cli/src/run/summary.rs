@@ -235,7 +235,7 @@ fn median(sorted: &[u64]) -> u64 {
 #[cfg(test)]
 mod tests {
     use mediant::Vertex;
-    use mediant::{Counters, Query};
+    use mediant::{Query, search::Counters};
 
     use super::*;
     use crate::run::queries::Item;

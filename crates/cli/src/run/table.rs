@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use mediant::{Engine, Limit, OptionValue, Path, PlacementKind, Stopped, Vertex, files::WorldFrame};
+use mediant::{Engine, Limit, Path, PlacementKind, Stopped, Vertex, files::WorldFrame, options::OptionValue};
 
 use super::{
     answer::{Found, QueryOutcome, QueryRecord, RunHead},

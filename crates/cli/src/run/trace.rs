@@ -2,7 +2,9 @@
 
 use std::{io, path};
 
-use mediant::{Grid, Outcome, PlacementKind, Planner, Query, QueryError, Request, Tracer};
+use mediant::{
+    Outcome, PlacementKind, Planner, Query, Request, errors::QueryError, grid::Grid, search::Tracer,
+};
 use mediant_formats::NewFile;
 
 use crate::{failure::Failure, write::write_file};

@@ -8,7 +8,7 @@ use std::{
 };
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
-use mediant::Stage;
+use mediant::search::Stage;
 
 /// How long a job may take without a bar.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -65,8 +65,8 @@ impl BuildProgress {
     }
 
     /// Shows how far the preparation is.
-    pub(crate) fn tell(&self, progress: mediant::Progress) {
-        let mediant::Progress { stage, done, total } = progress;
+    pub(crate) fn tell(&self, progress: mediant::search::Progress) {
+        let mediant::search::Progress { stage, done, total } = progress;
         if !self.allowed || self.begin.elapsed() < PATIENCE {
             return;
         }

@@ -4,10 +4,10 @@ use super::value::{OptionValue, ValueKind};
 
 /// An option that some engines take: its name, its texts and the kind of its value.
 ///
-/// [`ConfiguredEngine::options`](crate::ConfiguredEngine::options) lists the options of an engine.
+/// [`ConfiguredEngine::options`](crate::options::ConfiguredEngine::options) lists the options of an engine.
 ///
 /// ```
-/// use mediant::{ConfiguredEngine, Engine, EngineOption, Setup};
+/// use mediant::{Engine, Setup, options::{ConfiguredEngine, EngineOption}};
 ///
 /// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit");
 /// let limit = limit.ok_or("no such option")?;

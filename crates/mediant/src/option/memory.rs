@@ -6,7 +6,7 @@ use std::{fmt, num::NonZeroU64, str::FromStr};
 /// `GB`, which are thousands, millions and billions of bytes.
 ///
 /// ```
-/// use mediant::Memory;
+/// use mediant::options::Memory;
 /// assert_eq!("8MB".parse::<Memory>().map(Memory::bytes), Ok(8_000_000));
 /// assert_eq!("1500000".parse::<Memory>().map(|memory| memory.to_string()), Ok("1500kB".to_owned()));
 /// assert!("8 MiB".parse::<Memory>().is_err());

@@ -3,8 +3,9 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, Error, GuidedOptions, HeuristicName, JumpOptions, Levels, Motion, Setup,
-    SetupError, Variant,
+    Engine, Error, Motion, Setup,
+    errors::SetupError,
+    options::{ConfiguredEngine, GuidedOptions, HeuristicName, JumpOptions, Levels, Variant},
 };
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};

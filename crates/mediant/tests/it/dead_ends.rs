@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    Change, Engine, Index, K, Map, Motion, Origin, Outcome, Planners, Query, QueryError, Rectangle, Setup,
-    Vertex,
+    Change, Engine, Index, K, Map, Motion, Origin, Outcome, Planners, Query, Rectangle, Setup, Vertex,
+    errors::QueryError,
 };
 use mediant_grid::{Corners, DiagonalGap, FreeSpace, Grid, Rules};
 use mediant_oracle::{Rng, caves, maze, on_all_cores, random_free_vertex, rooms, seeds};

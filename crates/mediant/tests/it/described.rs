@@ -2,8 +2,10 @@
 //! languages are written from it (`cargo xtask describe`), and `tidy` compares them with it.
 
 use mediant::{
-    ConfiguredEngine, Engine, ErrorCode, Limit, Origin, Stage, Status,
+    Engine, ErrorCode, Limit, Origin, Status,
     call::{Kind, PARAMETERS, Unit},
+    options::ConfiguredEngine,
+    search::Stage,
 };
 use serde_json::{Value, json};
 

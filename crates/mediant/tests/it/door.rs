@@ -3,9 +3,13 @@
 use std::sync::Arc;
 
 use mediant::{
-    BrokenPath, Change, Choice, CornerRule, Counters, Demand, DiagonalGap, End, Engine, EngineName, Error,
-    ErrorCode, Identity, K, Map, Motion, Observer, Origin, Outcome, Path, Planner, Query, QueryError,
-    Rectangle, Rules, Setup, Smoothing, Space, Vertex, files::MapOptions,
+    Change, Choice, CornerRule, Demand, DiagonalGap, Engine, Error, ErrorCode, K, Map, Motion, Origin,
+    Outcome, Path, Planner, Query, Rectangle, Rules, Setup, Smoothing, Space, Vertex,
+    errors::{BrokenPath, QueryError},
+    files::MapOptions,
+    grid::Identity,
+    options::EngineName,
+    search::{Counters, End, Observer},
 };
 use mediant_formats::IndexFile;
 use mediant_oracle::{Rng, caves};

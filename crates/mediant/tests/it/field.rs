@@ -1,6 +1,9 @@
 //! Fields of a space are the distances of single paths; the same for maps of agents and widest paths.
 
-use mediant::{Engine, ErrorCode, Fit, K, Map, Motion, Outside, Query, Setup, Space, Vertex};
+use mediant::{
+    Engine, ErrorCode, K, Map, Motion, Query, Setup, Space, Vertex,
+    grid::{Fit, Outside},
+};
 use mediant_grid::Rules;
 use mediant_oracle::{Rng, random_grid};
 

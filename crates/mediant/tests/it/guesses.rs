@@ -1,8 +1,8 @@
 //! First guesses of people who have read nothing: each compiles, and means what it says.
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, Error, ErrorCode, FiniteK, IntoK, K, Limits, Map, Motion, Outcome, Path,
-    Planner, Planners, Query, Rectangle, Request, Setup, Vector, Vertex,
+    CornerRule, DiagonalGap, Engine, Error, ErrorCode, FiniteK, K, Limits, Map, Motion, Outcome, Path,
+    Planner, Planners, Query, Rectangle, Request, Setup, Vertex, grid::Vector, search::IntoK,
 };
 
 /// A map with a way around its wall.

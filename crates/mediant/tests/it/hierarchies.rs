@@ -4,8 +4,11 @@
 use std::{num::NonZeroU32, sync::Arc};
 
 use mediant::{
-    ChpaOptions, ConfiguredEngine, Engine, EngineOption, Error, HeuristicName, HpaOptions, Index, Levels,
-    Map, Motion, OptionValue, Setup, SetupError, Variant,
+    Engine, Error, Index, Map, Motion, Setup,
+    errors::SetupError,
+    options::{
+        ChpaOptions, ConfiguredEngine, EngineOption, HeuristicName, HpaOptions, Levels, OptionValue, Variant,
+    },
 };
 use mediant_grid::{Centers, CornerRule, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, Clustering, FallbackPolicy, HierarchyError, SegmentGraph};

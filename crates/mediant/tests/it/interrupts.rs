@@ -6,8 +6,8 @@ use std::sync::{
 };
 
 use mediant::{
-    Engine, Error, ErrorCode, Exceptions, Fit, K, Limit, Limits, Map, Motion, Outside, Planner, Query,
-    Rectangle, Space,
+    Engine, Error, ErrorCode, Exceptions, K, Limit, Limits, Map, Motion, Planner, Query, Rectangle, Space,
+    grid::{Fit, Outside},
 };
 use mediant_formats::{MapFile, MapOptions, Raster, RasterFormat, RosMap};
 use mediant_grid::Grid;
@@ -104,9 +104,9 @@ fn preparations_stop() {
 fn comparisons_stop() {
     let map = Map::from_fn(60, 60, |x, y| (x * 7919 + y * 104_729 + x * y * 31) % 101 < 12).expect("a map");
     let space = map.space(Motion::corners(K::ANY)).expect("a space");
-    let engine = mediant::ConfiguredEngine::Subgoal(mediant::SubgoalOptions {
-        memory: mediant::Memory::new(1000),
-        ..mediant::SubgoalOptions::default()
+    let engine = mediant::options::ConfiguredEngine::Subgoal(mediant::options::SubgoalOptions {
+        memory: mediant::options::Memory::new(1000),
+        ..mediant::options::SubgoalOptions::default()
     });
     check("a comparison", |limits| space.within(limits).prepare(engine));
 }

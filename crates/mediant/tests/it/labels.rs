@@ -1,6 +1,6 @@
 //! Subgoals as the map decides: hub labels within a budget of memory, contraction hierarchies, and neither.
 
-use mediant::{Engine, Error, ErrorCode, Guarantee, Index, Levels, Map, Query, Setup, Vertex};
+use mediant::{Engine, Error, ErrorCode, Guarantee, Index, Map, Query, Setup, Vertex, options::Levels};
 use mediant_formats::{IndexFile, IndexKey};
 use mediant_grid::Identity;
 use mediant_oracle::{Rng, noise, random_free_vertex};
@@ -224,7 +224,7 @@ fn another_k_gives_the_index_of_that_k() {
         assert_eq!(made.to_bytes().ok(), alone.to_bytes().ok(), "{text}, {other}");
     }
     let error = index(setup("subgoal:3:never"), &map).and_then(|index| index.for_k(mediant::K::ANY));
-    assert!(matches!(error, Err(Error::Setup(mediant::SetupError::Motion { .. }))), "{error:?}");
+    assert!(matches!(error, Err(Error::Setup(mediant::errors::SetupError::Motion { .. }))), "{error:?}");
     let error = index(setup("subgoal:2:always"), &map).and_then(|index| index.for_k(mediant::K::N8));
     assert_eq!(error.map(|_| ()).map_err(|error| error.code()), Err(ErrorCode::EngineRules));
 }

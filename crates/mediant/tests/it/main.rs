@@ -23,7 +23,10 @@ mod subgoals;
 mod table;
 mod tiles;
 
-use mediant::{EngineOption, Error, Index, Levels, Map, OptionValue, Planner, Setup};
+use mediant::{
+    Error, Index, Map, Planner, Setup,
+    options::{EngineOption, Levels, OptionValue},
+};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules};
 use mediant_moves::FiniteK;
 

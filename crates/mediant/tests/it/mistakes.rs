@@ -3,10 +3,12 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    ConfiguredEngine, Engine, EngineOption, Error, ErrorCode as Code, FiniteK, Grid, HpaOptions, Index, K,
-    Limits, Map, Motion, Path, Query, Rectangle, Request, Setup, Space, Vertex,
+    Engine, Error, ErrorCode as Code, FiniteK, Index, K, Limits, Map, Motion, Path, Query, Rectangle,
+    Request, Setup, Space, Vertex,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
     errors::absent,
+    grid::Grid,
+    options::{ConfiguredEngine, EngineOption, HpaOptions},
 };
 use mediant_formats::{IndexFile, IndexKey};
 

@@ -1,7 +1,9 @@
 //! Options: which engines take them, and how they are read, written and reported.
 
 use mediant::{
-    ConfiguredEngine, Engine, EngineOption, Memory, Motion, OptionValue, Setup, SetupError, ValueKind,
+    Engine, Motion, Setup,
+    errors::SetupError,
+    options::{ConfiguredEngine, EngineOption, Memory, OptionValue, ValueKind},
 };
 
 use super::{NEVER, k, setup};

@@ -1,6 +1,8 @@
 //! Planners that threads share answer as one planner does.
 
-use mediant::{BatchProgress, Engine, K, Map, Motion, Outcome, Planners, Query, QueryError, Setup};
+use mediant::{
+    Engine, K, Map, Motion, Outcome, Planners, Query, Setup, errors::QueryError, search::BatchProgress,
+};
 use mediant_grid::{Rules, Vertex};
 use mediant_oracle::{Rng, random_grid};
 

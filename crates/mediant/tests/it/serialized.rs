@@ -3,8 +3,9 @@
 use std::fmt::Debug;
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, EngineName, FiniteK, K, Levels, Map, Memory, Motion, Path,
-    PlacementKind, Query, Rectangle, Rules, Setup, Vertex,
+    CornerRule, DiagonalGap, Engine, FiniteK, K, Map, Motion, Path, PlacementKind, Query, Rectangle, Rules,
+    Setup, Vertex,
+    options::{EngineName, Levels, Memory},
 };
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};

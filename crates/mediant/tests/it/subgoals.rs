@@ -2,7 +2,12 @@
 
 use std::sync::{Arc, Mutex};
 
-use mediant::{Engine, Error, Levels, Motion, Progress, Setup, SetupError, Stage};
+use mediant::{
+    Engine, Error, Motion, Setup,
+    errors::SetupError,
+    options::Levels,
+    search::{Progress, Stage},
+};
 use mediant_grid::{Centers, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::Query;

@@ -1,6 +1,9 @@
 //! Agents of a size, and paths that keep off walls.
 
-use mediant::{Clearance, Error, Fit, Limits, Outside, Vertex};
+use mediant::{
+    Error, Limits, Vertex,
+    grid::{Clearance, Fit, Outside},
+};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 

@@ -3,8 +3,9 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, Identity, Limits, Map, PlacementKind, Rules,
+    CornerRule, Limits, Map, PlacementKind, Rules,
     files::{Fraction, MapOptions, RosVersion, Tiles, WorldFrame},
+    grid::Identity,
 };
 use mediant_formats::Picture;
 use pyo3::{

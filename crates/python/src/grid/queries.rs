@@ -5,7 +5,10 @@ use std::sync::{
     atomic::{AtomicUsize, Ordering},
 };
 
-use mediant::{Demand, Error, Limit, Limits, Outcome, Progress, Stage, Stopped};
+use mediant::{
+    Demand, Error, Limit, Limits, Outcome, Stopped,
+    search::{Progress, Stage},
+};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 

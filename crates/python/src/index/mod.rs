@@ -9,7 +9,7 @@ mod trace;
 
 use std::sync::Arc;
 
-use mediant::{Guarantee, Index as Prepared, K, Levels, Planners, Setup};
+use mediant::{Guarantee, Index as Prepared, K, Planners, Setup, options::Levels};
 use pyo3::prelude::*;
 
 pub(crate) use self::{queries::Asked, search::Search};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Counters, Limits, Outcome, Planners, Query};
+use mediant::{Limits, Outcome, Planners, Query, search::Counters};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 

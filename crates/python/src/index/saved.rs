@@ -161,7 +161,7 @@ impl Index {
         setup: &str,
         bytes: Option<Vec<u8>>,
     ) -> PyResult<Self> {
-        let setup: Setup = setup.parse().map_err(|error: mediant::TextError| raised(error))?;
+        let setup: Setup = setup.parse().map_err(|error: mediant::errors::TextError| raised(error))?;
         let grid = grid.get().clone();
         let map = grid.map().clone();
         let work = move |limits: &Limits| match bytes {

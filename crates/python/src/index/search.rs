@@ -6,7 +6,9 @@ use std::{
 };
 
 use mediant::{
-    Counters, Guarantee, Limits, Observer, Outcome, Path, Planner, Query, QueryError, Rules, Vertex,
+    Guarantee, Limits, Outcome, Path, Planner, Query, Rules, Vertex,
+    errors::QueryError,
+    search::{Counters, Observer},
 };
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};

@@ -2,7 +2,10 @@
 
 use std::{io, path::PathBuf, time::Instant};
 
-use mediant::{Cost, Counters, Limits, NodeEvent, Observer, Outcome, Query, Space, Tracer, Vertex};
+use mediant::{
+    Cost, Limits, Outcome, Query, Space, Vertex,
+    search::{Counters, NodeEvent, Observer, Tracer},
+};
 use mediant_formats::NewFile;
 use pyo3::{exceptions::PyMemoryError, prelude::*};
 

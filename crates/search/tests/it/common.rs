@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Engine, Map, Motion, Planner, Setup, Space, Variant};
+use mediant::{Engine, Map, Motion, Planner, Setup, Space, options::Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};

@@ -1,7 +1,10 @@
 //! Agents of a size.
 
 use js_sys::Float64Array;
-use mediant::{Fit, Outside, Vertex};
+use mediant::{
+    Vertex,
+    grid::{Fit, Outside},
+};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;

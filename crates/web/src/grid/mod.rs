@@ -5,7 +5,7 @@ mod queries;
 mod reading;
 
 use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
-use mediant::{Grid as Bits, Map, Rectangle, errors::NO_COSTS, files::WorldFrame};
+use mediant::{Map, Rectangle, errors::NO_COSTS, files::WorldFrame, grid::Grid as Bits};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{

@@ -1,8 +1,8 @@
 //! Several ends, tolerances, nearest and snapped ends.
 
 use mediant::{
-    CornerRule, End, Engine, Grid, Guarantee, K, Limit, Limits, Map, Motion, Outcome, Path, PlacementKind,
-    Planner, Query, QueryError, Request, Rules, Setup, Smoothing, Vertex,
+    CornerRule, Engine, Guarantee, K, Limit, Limits, Map, Motion, Outcome, Path, PlacementKind, Planner,
+    Query, Request, Rules, Setup, Smoothing, Vertex, errors::QueryError, grid::Grid, search::End,
 };
 use mediant_oracle::{Rng, on_all_cores, random_vertex};
 

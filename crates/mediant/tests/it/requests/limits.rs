@@ -6,8 +6,9 @@ use std::sync::{
 };
 
 use mediant::{
-    Cost, Engine, Guarantee, K, Limit, Limits, NodeEvent, Observer, Outcome, Planner, Query, QueryError,
-    Setup, Stopped, Vertex,
+    Cost, Engine, Guarantee, K, Limit, Limits, Outcome, Planner, Query, Setup, Stopped, Vertex,
+    errors::QueryError,
+    search::{NodeEvent, Observer},
 };
 use mediant_oracle::{Costs, Explicit};
 

@@ -11,8 +11,10 @@ mod steps;
 use std::{fmt::Debug, ops::Range};
 
 use mediant::{
-    CornerRule, Cost, Engine, Grid, Guarantee, K, Map, Motion, NodeEvent, Observer, Path, PlacementKind,
-    Planner, Query, Rules, Setup, Space, Vertex,
+    CornerRule, Cost, Engine, Guarantee, K, Map, Motion, Path, PlacementKind, Planner, Query, Rules, Setup,
+    Space, Vertex,
+    grid::Grid,
+    search::{NodeEvent, Observer},
 };
 use mediant_moves::CostTable;
 use mediant_oracle::{

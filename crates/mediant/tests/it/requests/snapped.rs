@@ -1,6 +1,6 @@
 //! Snapped ends, and ends that are wrong.
 
-use mediant::{End, Grid, Query, QueryError, Request, Vertex};
+use mediant::{Query, Request, Vertex, errors::QueryError, grid::Grid, search::End};
 use mediant_oracle::Rng;
 
 use super::{

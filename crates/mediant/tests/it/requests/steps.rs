@@ -1,6 +1,8 @@
 //! A search in steps is the search at once, and what is abandoned leaves nothing behind.
 
-use mediant::{Cost, Engine, Observer, Outcome, Planner, Query, QueryError, Request, Setup, Vertex};
+use mediant::{
+    Cost, Engine, Outcome, Planner, Query, Request, Setup, Vertex, errors::QueryError, search::Observer,
+};
 
 use super::{Event, Log, World, end, expands_in_clusters, is_exact, maps, on_worlds, start};
 use crate::{planner, setup};

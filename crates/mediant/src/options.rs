@@ -1,0 +1,15 @@
+//! Engines with their options, and the table of engines.
+
+pub use crate::{
+    capabilities::{Capabilities, Promise},
+    configured::ConfiguredEngine,
+    demand::EngineName,
+    engines::{
+        CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
+        SubgoalOptions, SubgoalThetaOptions,
+    },
+    option::{
+        EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
+        Variant,
+    },
+};
