@@ -16,7 +16,7 @@ use crate::{engine::Engine, option::Variant, setup_error::SetupError};
 pub struct Capabilities {
     /// Its name in print: `Block-based JPS`.
     pub title: &'static str,
-    /// How it works, in a sentence.
+    /// Its working, in a sentence.
     pub how: &'static str,
     /// The placements that it takes.
     pub placements: &'static [PlacementKind],

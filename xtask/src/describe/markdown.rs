@@ -8,14 +8,21 @@ use super::{Description, Engine, Parameter};
 pub(super) fn engines(description: &Description) -> String {
     let mut text = "| engine | vertices | k | guarantee | paper |\n|---|---|---|---|---|\n".to_owned();
     for engine in &description.engines {
-        let Engine { name, title, placements, max_k, any, promise, papers, .. } = engine;
-        let places: Vec<String> = placements.iter().map(|place| format!("{place}s")).collect();
-        let k = match (max_k, any) {
-            (3, false) => "2, 3".to_owned(),
-            (max, false) => format!("2 … {max}"),
-            (max, true) => format!("2 … {max}, any angle"),
+        let Engine { name, title, max_k, promise, papers, .. } = engine;
+        let places: Vec<String> = engine.placements.iter().map(|place| format!("{place}s")).collect();
+        // An engine that takes both placements may take fewer k at one of them.
+        let places = if engine.few_k_at_centers && places.len() > 1 {
+            "corners; centers at k = 2, 3".to_owned()
+        } else {
+            places.join(", ")
         };
-        _ = writeln!(text, "| {title} (`{name}`) | {} | {k} | {promise} | {papers} |", places.join(", "));
+        let k = match max_k {
+            3 => "2, 3".to_owned(),
+            max if engine.any => format!("2 … {max}, any angle"),
+            max if engine.any_angle => format!("2 … {max}, segments at any angle"),
+            max => format!("2 … {max}"),
+        };
+        _ = writeln!(text, "| {title} (`{name}`) | {places} | {k} | {promise} | {papers} |");
     }
     text
 }

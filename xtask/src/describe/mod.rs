@@ -50,6 +50,10 @@ struct Engine {
     placements: Vec<String>,
     max_k: u32,
     any: bool,
+    /// Its paths turn at any angle, whatever the k.
+    any_angle: bool,
+    /// Between centers it takes k = 2 and 3 alone.
+    few_k_at_centers: bool,
     promise: String,
     papers: String,
 }

@@ -9,7 +9,7 @@ use clap::{
 };
 use mediant::call::{Call, CallError, Group, Kind, PARAMETERS, Parameter, Unit};
 
-/// How the agent moves.
+/// The motion of the agent.
 pub(crate) const MOTION: u8 = 1;
 /// Wishes beyond the ends of a path.
 pub(crate) const WISHES: u8 = 2;
@@ -19,7 +19,7 @@ pub(crate) const ENGINE: u8 = 4;
 pub(crate) const INDEX_OPTIONS: u8 = 8;
 /// All options of engines.
 pub(crate) const OPTIONS: u8 = 16 | INDEX_OPTIONS;
-/// How paths are smoothed.
+/// The smoothing of paths.
 pub(crate) const SMOOTH: u8 = 32;
 
 /// The parameters that were given, of those that a command takes.

@@ -120,7 +120,7 @@ impl Call {
         Ok(self.k.or(self.neighbors))
     }
 
-    /// How the agent moves. Parameters that were left out have the engine's defaults: k = 3 between
+    /// The motion of the agent. Parameters that were left out have the engine's defaults: k = 3 between
     /// centers under `never`, but any angle between corners for [`Engine::Anya`].
     ///
     /// # Errors
@@ -131,7 +131,7 @@ impl Call {
         self.motion_from(Motion::new(k, capabilities.default_rules(k)))
     }
 
-    /// How the agent moves, where what was left out is as usual.
+    /// The motion of the agent, where parts that were left out are the usual ones.
     ///
     /// # Errors
     /// As for [`motion`](Self::motion).
@@ -207,7 +207,7 @@ impl Call {
         &self.options
     }
 
-    /// How paths are smoothed.
+    /// The smoothing of paths.
     #[must_use]
     pub const fn smoothing(&self) -> Option<Smoothing> {
         self.smoothing

@@ -11,7 +11,7 @@ use crate::{
     option::{EngineOption, ValueKind, description as option_table},
 };
 
-/// How a language writes a name of several words.
+/// The spelling of names of several words in a language.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Spelling {
     /// `max-cost`: the program.
@@ -46,7 +46,7 @@ impl Spelling {
 /// The groups of parameters: a call takes whole groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Group {
-    /// How the agent moves.
+    /// The motion of the agent.
     Motion,
     /// Wishes beyond the ends of a path.
     Wishes,

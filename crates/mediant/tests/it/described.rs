@@ -43,6 +43,8 @@ fn description() -> Value {
             "placements": can.placements.iter().map(|placement| placement.name()).collect::<Vec<_>>(),
             "max_k": can.max_k,
             "any": can.any,
+            "any_angle": can.any_angle,
+            "few_k_at_centers": can.few_k_at_centers,
             "title": can.title,
             "how": can.how,
             "guarantee": can.guarantee.name(),
