@@ -115,5 +115,9 @@ fn every_call_of_the_table_is_answered_as_it_says() {
     if std::env::var_os("MEDIANT_WRITE").is_some() {
         std::fs::write(FILE, &found).expect("the table");
     }
-    assert_eq!(std::fs::read_to_string(FILE).expect("the table"), found, "MEDIANT_WRITE=1 writes it");
+    let said = std::fs::read_to_string(FILE).expect("the table");
+    for (said, found) in said.lines().zip(found.lines()) {
+        assert_eq!(said, found, "MEDIANT_WRITE=1 writes the table");
+    }
+    assert!(said == found, "the table has more or fewer calls: MEDIANT_WRITE=1 writes it");
 }
