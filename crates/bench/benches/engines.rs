@@ -12,7 +12,7 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, sparse};
 use mediant_search::{
-    Query,
+    Ends,
     parts::{Entry, OpenList},
 };
 
@@ -69,12 +69,12 @@ fn grid_graph<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: u32) -> GridGrap
 }
 
 /// Random queries, the same for every k. All of them have a path.
-fn random_queries(grid: &Grid, space: &Space) -> Vec<Query> {
+fn random_queries(grid: &Grid, space: &Space) -> Vec<Ends> {
     let (mut rng, placement) = (Rng::new(SEED), space.motion().rules.placement());
     let mut end = || random_free_vertex(&mut rng, grid, placement).expect("the map has free cells");
     let pairs = std::iter::repeat_with(|| (end(), end()));
     let connected = pairs.filter(|&(start, goal)| space.connected(start, goal));
-    connected.take(QUERIES).map(|(start, goal)| Query::new(start, goal)).collect()
+    connected.take(QUERIES).map(|(start, goal)| Ends::new(start, goal)).collect()
 }
 
 /// Benchmarks all queries together, on a warm planner.

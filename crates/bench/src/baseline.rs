@@ -6,7 +6,7 @@ use std::{cmp::Ordering, ops::Add};
 use grid_pathfinding::PathingGrid;
 use grid_util::{grid::ValueGrid, point::Point};
 use mediant_grid::{Grid, Vertex};
-use mediant_search::Query;
+use mediant_search::Ends;
 use pathfinding::{num_traits::Zero, prelude::astar};
 
 /// A crate that was timed together with the programs of the reference timings.
@@ -107,7 +107,7 @@ impl BoolMap {
     }
 
     /// A shortest path cell by cell, and its length. Start and goal must be on the map.
-    pub(crate) fn solve(&self, query: Query) -> Option<(Vec<Cell>, Length)> {
+    pub(crate) fn solve(&self, query: Ends) -> Option<(Vec<Cell>, Length)> {
         let cell = |at: Vertex| (at.x as u16, at.y as u16);
         let goal = cell(query.goal);
         let octile = |&(x, y): &Cell| {
@@ -133,7 +133,7 @@ pub(crate) fn pathing_grid(grid: &Grid) -> PathingGrid {
 }
 
 /// A path of `grid_pathfinding`, cell by cell.
-pub(crate) fn solve_on(pathing: &PathingGrid, query: Query) -> Option<Vec<Point>> {
+pub(crate) fn solve_on(pathing: &PathingGrid, query: Ends) -> Option<Vec<Point>> {
     let point = |at: Vertex| Point::new(at.x, at.y);
     pathing.get_path_single_goal(point(query.start), point(query.goal), false)
 }

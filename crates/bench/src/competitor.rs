@@ -6,7 +6,7 @@ use grid_pathfinding::PathingGrid;
 use grid_util::point::Point;
 use mediant::{Error, Map, Planner, Setup};
 use mediant_grid::Grid;
-use mediant_search::{Outcome, Query, QueryError};
+use mediant_search::{Answer, Ends, QueryError};
 
 use crate::{
     Baseline, Preparation, Problem,
@@ -51,7 +51,7 @@ pub(crate) enum Runner {
 
 /// An answer as its competitor gives it.
 pub(crate) enum CompetitorAnswer {
-    Outcome(Outcome),
+    Answer(Answer),
     Cells(Option<(Vec<(u16, u16)>, Length)>),
     Points(Option<Vec<Point>>),
     Length(Option<f64>),
@@ -100,11 +100,11 @@ impl Runner {
         }
     }
 
-    pub(crate) fn solve(&mut self, query: Query) -> Result<CompetitorAnswer, QueryError> {
+    pub(crate) fn solve(&mut self, query: Ends) -> Result<CompetitorAnswer, QueryError> {
         Ok(match self {
-            Self::Ours(planner, _) => CompetitorAnswer::Outcome(planner.find(query)?),
+            Self::Ours(planner, _) => CompetitorAnswer::Answer(planner.find(query)?),
             Self::Distance(planner, _) => CompetitorAnswer::Length(planner.distance(query)?),
-            Self::Typed(planner) => CompetitorAnswer::Outcome(planner.solve(query)?),
+            Self::Typed(planner) => CompetitorAnswer::Answer(planner.solve(query)?),
             Self::Bools(map) => CompetitorAnswer::Cells(map.solve(query)),
             Self::Pathing(pathing) => CompetitorAnswer::Points(solve_on(pathing, query)),
         })
@@ -115,7 +115,7 @@ impl CompetitorAnswer {
     /// The path's length in cells; `None` where there is no path.
     pub(crate) fn cost(&self) -> Option<f64> {
         match self {
-            Self::Outcome(outcome) => outcome.path().map(mediant_search::Path::cost),
+            Self::Answer(answer) => answer.path().map(mediant_search::Path::cost),
             Self::Length(length) => *length,
             Self::Cells(path) => path.as_ref().map(|(_, length)| length.0),
             Self::Points(path) => path.as_ref().map(|points| {

@@ -45,5 +45,5 @@ pub use reference_timings::{
     MapTimings, Preprocessing, Published, PublishedRow, ReferenceProgram, ReferenceTimings,
     ReferenceTimingsError,
 };
-pub use study::{Answer, Run, Study};
+pub use study::{PathFigures, Run, Study};
 pub use typed::TypedEngine;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant_formats::{MapError, MapFile, MapMismatch, Scenario, ScenarioError, Tiles};
 use mediant_grid::Grid;
-use mediant_search::Query;
+use mediant_search::Ends;
 use mediant_sets::{Archive, ArchiveError};
 
 /// A map with the queries that are measured on it.
@@ -21,7 +21,7 @@ pub struct Problem {
 pub(crate) struct Case {
     /// Its index in the scenario, from 0.
     pub(crate) index: usize,
-    pub(crate) query: Query,
+    pub(crate) query: Ends,
     /// The length of a shortest path at k = 3 between centers without cut corners, as exactly as the scenario
     /// gives it.
     pub(crate) optimum: f64,
@@ -103,7 +103,7 @@ impl Problem {
         let cases: Vec<Case> = instances
             .map(|(index, instance)| Case {
                 index,
-                query: Query::new(instance.start, instance.goal),
+                query: Ends::new(instance.start, instance.goal),
                 optimum: instance.optimal,
             })
             .collect();

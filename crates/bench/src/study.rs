@@ -5,7 +5,7 @@ use std::{hint::black_box, sync::Arc, time::Instant};
 use mediant::{Error, Index, Map, Planner, Setup, Space};
 use mediant_grid::{Grid, Vertex};
 use mediant_report::stats::median;
-use mediant_search::{Counters, Outcome, Path, Query};
+use mediant_search::{Answer, Counters, Ends, Path};
 
 use crate::Preparation;
 
@@ -13,7 +13,7 @@ use crate::Preparation;
 #[derive(Debug)]
 pub struct Study<'a> {
     grid: &'a Arc<Grid>,
-    queries: &'a [Query],
+    queries: &'a [Ends],
     passes: u32,
     /// The last space: setups of the same k and rules share it, if they search the same of it.
     space: Option<ReadySpace>,
@@ -48,7 +48,7 @@ impl ReadySpace {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The answers, in the order of the queries. `None` where there is no path, or none was found.
-    pub answers: Vec<Option<Answer>>,
+    pub answers: Vec<Option<PathFigures>>,
     /// The mean time of a query in microseconds, paths included: the median of the timed passes. `None` if no
     /// pass was timed.
     pub micros: Option<f64>,
@@ -58,7 +58,7 @@ pub struct Run {
 
 /// One path, and the counts of the search that found it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
+pub struct PathFigures {
     /// Its Euclidean length in cells.
     pub cost: f64,
     /// The number of its moves, if it is a path over N(k).
@@ -71,7 +71,7 @@ pub struct Answer {
     pub counters: Counters,
 }
 
-impl Answer {
+impl PathFigures {
     fn new(path: &Path, counters: Counters) -> Self {
         let step = |ends: &[Vertex]| ends[0].to(ends[1]).gcd();
         let moves = path.waypoints().windows(2).map(step).sum();
@@ -83,13 +83,13 @@ impl Answer {
 impl<'a> Study<'a> {
     /// A study whose runs have so many timed passes, or none.
     #[must_use]
-    pub const fn new(grid: &'a Arc<Grid>, queries: &'a [Query], passes: u32) -> Self {
+    pub const fn new(grid: &'a Arc<Grid>, queries: &'a [Ends], passes: u32) -> Self {
         Self { grid, queries, passes, space: None, index: None }
     }
 
     /// The queries.
     #[must_use]
-    pub const fn queries(&self) -> &'a [Query] {
+    pub const fn queries(&self) -> &'a [Ends] {
         self.queries
     }
 
@@ -102,12 +102,12 @@ impl<'a> Study<'a> {
     /// [`Error`] for a setup that does not exist.
     pub fn run(&mut self, setup: Setup) -> Result<Run, Error> {
         let (mut planner, preparation) = self.planner(setup)?;
-        let answer = |query: &Query| match planner.find_counted(*query) {
-            Ok((Outcome::Found(path), counters)) => Some(Answer::new(&path, counters)),
+        let answer = |query: &Ends| match planner.find_counted(*query) {
+            Ok((Answer::Found(path), counters)) => Some(PathFigures::new(&path, counters)),
             // A query with a blocked end, or one at which CHPA* as published gives up.
             Ok(_) | Err(_) => None,
         };
-        let answers: Vec<Option<Answer>> = self.queries.iter().map(answer).collect();
+        let answers: Vec<Option<PathFigures>> = self.queries.iter().map(answer).collect();
         let mut pass = || {
             let begin = Instant::now();
             for query in self.queries {
@@ -164,7 +164,7 @@ mod tests {
         let grid = grid();
         let queries =
             [((0, 0), (5, 0)), ((0, 0), (0, 3)), ((0, 0), (7, 0)), ((1, 1), (0, 0)), ((2, 0), (4, 2))];
-        let queries = queries.map(|(start, goal)| Query::new(start, goal));
+        let queries = queries.map(|(start, goal)| Ends::new(start, goal));
         let mut study = Study::new(&grid, &queries, 0);
         // The second shares the first one's space, the fourth the third one's index, the last neither.
         for text in [
@@ -180,7 +180,7 @@ mod tests {
             let index = setup(text).prepare(&space).expect("an index");
             let mut planner = index.planner();
             for (query, answer) in queries.iter().zip(&run.answers) {
-                let Ok((Outcome::Found(path), counters)) = planner.find_counted(*query) else {
+                let Ok((Answer::Found(path), counters)) = planner.find_counted(*query) else {
                     assert_eq!(*answer, None, "{text}");
                     continue;
                 };
@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn moves_are_counted_one_by_one() {
         let grid = Arc::new(Grid::from_fn(9, 5, |_, _| false).expect("a grid"));
-        let queries = [Query::new((0, 0), (8, 4)), Query::new((0, 0), (7, 3)), Query::new((2, 2), (2, 2))];
+        let queries = [Ends::new((0, 0), (8, 4)), Ends::new((0, 0), (7, 3)), Ends::new((2, 2), (2, 2))];
         let mut study = Study::new(&grid, &queries, 2);
         let mut moves = |text: &str| {
             let run = study.run(setup(text)).expect("a run");

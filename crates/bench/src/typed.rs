@@ -5,7 +5,7 @@ use std::{fmt, sync::Arc};
 use mediant::{Error, Setup};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{AStar, Anya, BlockJps, Hk, Outcome, Planner, Query, QueryError};
+use mediant_search::{AStar, Answer, Anya, BlockJps, Ends, Hk, Planner, QueryError};
 use mediant_subgoal::{Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalGraph, SubgoalPlacement};
 
 /// An engine that is also measured as a typed planner.
@@ -108,7 +108,7 @@ pub(crate) enum Typed {
 }
 
 impl Typed {
-    pub(crate) fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
+    pub(crate) fn solve(&mut self, query: Ends) -> Result<Answer, QueryError> {
         match self {
             Self::AStar(planner) => planner.solve(query),
             Self::JpsBlock(planner) => planner.solve(query),

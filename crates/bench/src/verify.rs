@@ -22,7 +22,7 @@ use mediant::{Engine, Map, Motion, Planner, Setup};
 use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_moves::K;
-use mediant_search::{Query, QueryError};
+use mediant_search::{Ends, QueryError};
 use mediant_sets::{Error as SetError, cache, files, progress, root};
 use rayon::prelude::*;
 
@@ -219,8 +219,8 @@ pub fn run_in(cache: &Path, options: &Options, out: &mut dyn io::Write) -> Resul
 }
 
 /// The cost of a query's answer; `None` where there is no path.
-fn cost(planner: &mut Planner, query: Query) -> Result<Option<f64>, QueryError> {
-    planner.find(query).map(|outcome| outcome.path().map(|path| path.cost()))
+fn cost(planner: &mut Planner, query: Ends) -> Result<Option<f64>, QueryError> {
+    planner.find(query).map(|answer| answer.path().map(|path| path.cost()))
 }
 
 /// The setup and the map that the name of a reference file states.
@@ -325,7 +325,7 @@ fn reference(file: &Path, engine: Engine, maps: &BTreeMap<String, PathBuf>) -> R
     for &(index, known) in &rows {
         let instance = scenario.instances().get(index);
         let instance = instance.ok_or_else(|| wrong(format!("no instance {index}")))?;
-        let found = cost(&mut planner, Query::new(instance.start, instance.goal)).unwrap_or(None);
+        let found = cost(&mut planner, Ends::new(instance.start, instance.goal)).unwrap_or(None);
         let what = || format!("{setup}, {name} instance {index}");
         // For a blocked end, those programs report that there is no path.
         tally.compare(relation, what, found, (known >= 0.0).then_some(known), 1e-6 * known.max(1.0));

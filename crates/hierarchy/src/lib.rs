@@ -14,7 +14,7 @@
 //! use mediant_grid::{AsciiMap, Centers, Change, CornerRule, GridGraph};
 //! use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
 //! use mediant_moves::FiniteK;
-//! use mediant_search::{Planner, Query};
+//! use mediant_search::{Ends, Planner};
 //!
 //! let map = AsciiMap::parse("
 //!     ..#..
@@ -25,7 +25,7 @@
 //! let before = Arc::new(grid_graph(Arc::new(map.grid))?);
 //! let graph = Box::new(ClusterGraph::new(&before, Clustering { side: 2, levels: 1 })?);
 //! let mut planner = HpaStar::new(Arc::clone(&before), graph)?;
-//! let query = Query::new((0, 0), (4, 0));
+//! let query = Ends::new((0, 0), (4, 0));
 //! assert_eq!(planner.solve(query)?.path(), None);
 //!
 //! // A door opens.

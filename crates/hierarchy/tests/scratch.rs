@@ -18,7 +18,7 @@ use common::{
 use mediant_grid::{Centers, Change, CornerRule, Grid, GridGraph, Identity, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves, on_all_cores, seeds};
-use mediant_search::{Counters, Outcome, Planner, Query};
+use mediant_search::{Answer, Counters, Ends, Planner};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -143,7 +143,7 @@ fn cave() -> Grid {
 }
 
 /// The most allocations of a query on a warm planner, without that of its path.
-fn most_allocations(planner: &mut Solve<'_>, queries: &[Query], case: &str) -> usize {
+fn most_allocations(planner: &mut Solve<'_>, queries: &[Ends], case: &str) -> usize {
     for _ in 0..2 {
         for &query in queries {
             _ = ask(planner, query);
@@ -153,7 +153,7 @@ fn most_allocations(planner: &mut Solve<'_>, queries: &[Query], case: &str) -> u
     for &query in queries {
         let before = ALLOCATIONS.get();
         let (answer, _) = ask(planner, query);
-        let path = usize::from(matches!(answer, Ok(Outcome::Found(_))));
+        let path = usize::from(matches!(answer, Ok(Answer::Found(_))));
         most = most.max(ALLOCATIONS.get() - before - path);
         found += path;
     }

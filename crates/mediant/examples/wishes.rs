@@ -1,15 +1,14 @@
 //! Wishes beyond a path: the nearest place, a tolerance, limits.
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
-use mediant::{Engine, K, Limits, Map, Motion, Query};
+use mediant::{Ends, Engine, K, Limits, Map, Motion};
 
 fn main() -> Result<(), mediant::Error> {
     let space = Map::from_fn(80, 60, |x, y| x == 40 && y > 2)?.space(Motion::centers(K::N8))?;
     let mut planner = space.planner(Engine::AStar)?;
-    let query = Query::new((2, 30), (40, 30)); // The goal is in the wall.
-    for request in [query.nearest(), query.tolerance(3.0), query.snap().within(Limits::new().expansions(20))]
-    {
-        println!("{:?}", planner.find(request)?);
+    let ends = Ends::new((2, 30), (40, 30)); // The goal is in the wall.
+    for query in [ends.nearest(), ends.tolerance(3.0), ends.snap().within(Limits::new().expansions(20))] {
+        println!("{:?}", planner.find(query)?);
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use mediant_grid::{Clearance, Fit, Grid, Outside, Rectangle, Vertex};
-use mediant_search::{Limit, Limits, Outcome, Path, Query};
+use mediant_search::{Answer, Ends, Limit, Limits, Path, Query};
 
 use crate::{choice::Choice, error::Error, map::Map, motion::Motion, space::Space};
 
@@ -214,7 +214,7 @@ impl Space {
         if surplus.is_nan() || surplus < 0.0 {
             return Err(mediant_search::QueryError::CostLimit.into());
         }
-        let Some(shortest) = self.path_of(Query::new(start, goal), limits)? else { return Ok(None) };
+        let Some(shortest) = self.path_of(Ends::new(start, goal), limits)? else { return Ok(None) };
         // Two paths of one length can have sums that differ in the last digits.
         let greatest = match surplus {
             f64::INFINITY => f64::INFINITY,
@@ -228,11 +228,11 @@ impl Space {
             if !(space.is_free(start) && space.is_free(goal)) {
                 return Ok::<_, Error>(None);
             }
-            let request = Query::new(start, goal).within(limits.clone().cost(greatest));
+            let query = Query::new(start, goal).within(limits.clone().cost(greatest));
             let index = space.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
-            Ok(match index.try_planner()?.find(request)? {
-                Outcome::Found(path) => Some(path),
-                Outcome::Stopped(stopped) if stopped.by != Limit::Cost => {
+            Ok(match index.try_planner()?.find(query)? {
+                Answer::Found(path) => Some(path),
+                Answer::Stopped(stopped) if stopped.by != Limit::Cost => {
                     return Err(Error::Stopped { by: stopped.by, during: "searching a path" });
                 }
                 _ => None,

@@ -2,7 +2,7 @@
 
 use mediant_grid::{PlacementKind, Vertex};
 use mediant_moves::K;
-use mediant_search::{Limits, Outcome, Path, Query, Request};
+use mediant_search::{Answer, Ends, Limits, Path, Query};
 
 use crate::{
     call::Call, configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
@@ -139,11 +139,11 @@ impl Space {
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.path_of(Query::new(start, goal), &Limits::new())
+        self.path_of(Ends::new(start, goal), &Limits::new())
     }
 
     /// Of the limits only the deadline and the flag count.
-    pub(crate) fn path_of(&self, query: Query, limits: &Limits) -> Result<Option<Path>, Error> {
+    pub(crate) fn path_of(&self, query: Ends, limits: &Limits) -> Result<Option<Path>, Error> {
         self.check_query(query)?;
         let index = self.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
         whole(index.try_planner()?.find(within(query, limits))?)
@@ -160,11 +160,11 @@ impl Map {
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.path_of(Query::new(start, goal), &Limits::new())
+        self.path_of(Ends::new(start, goal), &Limits::new())
     }
 
     /// Of the limits only the deadline and the flag count.
-    pub(crate) fn path_of(&self, query: Query, limits: &Limits) -> Result<Option<Path>, Error> {
+    pub(crate) fn path_of(&self, query: Ends, limits: &Limits) -> Result<Option<Path>, Error> {
         let setup = self.setup(&Call::default())?;
         let planners = self.keep_planners(&setup, limits)?;
         planners.try_make_ready()?;
@@ -173,14 +173,14 @@ impl Map {
 }
 
 /// The query, within limits if there are any.
-fn within(query: Query, limits: &Limits) -> Request {
-    if limits.interrupt().is_never() { query.into() } else { query.within(limits.clone()) }
+fn within(query: Ends, limits: &Limits) -> Query {
+    if limits.interrupt().is_never() { query.into() } else { Query::from(query).within(limits.clone()) }
 }
 
-/// The path of an outcome that no limit has stopped.
-fn whole(outcome: Outcome) -> Result<Option<Path>, Error> {
-    match outcome {
-        Outcome::Stopped(stopped) => Err(Error::Stopped { by: stopped.by, during: "searching a path" }),
+/// The path of an answer that no limit has stopped.
+fn whole(answer: Answer) -> Result<Option<Path>, Error> {
+    match answer {
+        Answer::Stopped(stopped) => Err(Error::Stopped { by: stopped.by, during: "searching a path" }),
         answer => Ok(answer.into_path()),
     }
 }

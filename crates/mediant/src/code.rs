@@ -65,7 +65,7 @@ pub enum ErrorCode {
     MapFormat,
     /// A file that is no scenario.
     ScenarioFormat,
-    /// A request without a start or a goal.
+    /// A query without a start or a goal.
     NoEnd,
     /// A tolerance, a limit, a radius or a spacing that is negative, or no number.
     Number,

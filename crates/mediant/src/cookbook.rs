@@ -119,15 +119,15 @@
 //!
 //! ```
 //! use std::time::{Duration, Instant};
-//! use mediant::{Engine, Limits, Map, Motion, Outcome, Query};
+//! use mediant::{Answer, Engine, Limits, Map, Motion, Query};
 //!
 //! let space = Map::new(64, 64)?.space(Motion::default())?;
 //! let mut planner = space.planner(Engine::AStar)?;
 //! let end = Instant::now() + Duration::from_millis(5);
 //! let limits = Limits::new().deadline(move || Instant::now() > end);
 //! match planner.find(Query::new((0, 0), (60, 50)).within(limits))? {
-//!     Outcome::Found(path) => println!("in time: {path}"),
-//!     Outcome::Stopped(stopped) => println!("{stopped}: go on to {:?}", stopped.best.iter().last()),
+//!     Answer::Found(path) => println!("in time: {path}"),
+//!     Answer::Stopped(stopped) => println!("{stopped}: go on to {:?}", stopped.best.iter().last()),
 //!     other => println!("{other}"),
 //! }
 //! # Ok::<(), mediant::Error>(())
@@ -231,8 +231,8 @@
 //! let mut planner = space.planner(Engine::Subgoal)?;
 //! let others = Exceptions::new().blocked([(2, 0), (2, 1)]).free_ends();
 //! let answer = planner.find_except(Query::new((0, 0), (4, 0)), &others)?;
-//! println!("{}", answer.outcome);
-//! # assert!(answer.outcome.cost() > Some(4.0));
+//! println!("{}", answer.answer);
+//! # assert!(answer.answer.cost() > Some(4.0));
 //! # Ok::<(), mediant::Error>(())
 //! ```
 //!
@@ -261,13 +261,13 @@
 //! Where there is no way to the goal, the path leads to the reachable cell that is nearest to it.
 //!
 //! ```
-//! use mediant::{Engine, Map, Motion, Outcome, Query};
+//! use mediant::{Answer, Engine, Map, Motion, Query};
 //!
 //! let space = Map::from_rows(["...#.", "...#.", "...#."])?.space(Motion::default())?;
 //! let mut planner = space.planner(Engine::AStar)?;
 //! match planner.find(Query::new((0, 0), (4, 2)).nearest())? {
-//!     Outcome::Found(path) => println!("there: {path}"),
-//!     Outcome::Nearest(path) => println!("as near as possible: {path}"),
+//!     Answer::Found(path) => println!("there: {path}"),
+//!     Answer::Nearest(path) => println!("as near as possible: {path}"),
 //!     other => println!("{other}"),
 //! }
 //! # Ok::<(), mediant::Error>(())
@@ -407,9 +407,9 @@
 //!
 #![cfg_attr(feature = "serde", doc = "```")]
 #![cfg_attr(not(feature = "serde"), doc = "```ignore")]
-//! use mediant::{Map, Motion, Path, Query, Setup};
+//! use mediant::{Ends, Map, Motion, Path, Setup};
 //!
-//! let query: Query = serde_json::from_str(r#"{ "start": [0, 0], "goal": [2, 0] }"#)?;
+//! let query: Ends = serde_json::from_str(r#"{ "start": [0, 0], "goal": [2, 0] }"#)?;
 //! let setup: Setup = serde_json::from_str(r#""subgoal:3:never""#)?;
 //! let map = Map::from_rows([".#.", "..."])?;
 //! let path = setup.planner(&map)?.path(query.start, query.goal)?.expect("there is a way");

@@ -1,26 +1,31 @@
 //! Searches whose type is erased.
 
 use mediant_grid::{Identity, Vertex};
-use mediant_search::{Guarantee, Observer, Outcome, Path, Planner as Search, Query, QueryError, Status};
+use mediant_search::{Answer, Ends, Guarantee, Observer, Path, Planner as Search, QueryError, SearchStatus};
 
 /// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: without
 /// an observer, and in steps with one. An observed search costs dynamic calls for each event; at once it is
 /// made by [`Dynamic`], of steps without a pause.
 pub(crate) trait Erased {
     /// [`Search::solve`].
-    fn solve(&mut self, query: Query) -> Result<Outcome, QueryError>;
+    fn solve(&mut self, query: Ends) -> Result<Answer, QueryError>;
 
     /// [`Search::distance`].
-    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError>;
+    fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError>;
 
     /// [`Search::begin`].
-    fn begin(&mut self, query: Query, observer: &mut dyn Observer) -> Result<Status, QueryError>;
+    fn begin(&mut self, query: Ends, observer: &mut dyn Observer) -> Result<SearchStatus, QueryError>;
 
     /// [`Search::begin_from`].
-    fn begin_from(&mut self, starts: &[Vertex], goal: Vertex, observer: &mut dyn Observer) -> Option<Status>;
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut dyn Observer,
+    ) -> Option<SearchStatus>;
 
     /// [`Search::proceed`].
-    fn proceed(&mut self, observer: &mut dyn Observer) -> Result<Status, QueryError>;
+    fn proceed(&mut self, observer: &mut dyn Observer) -> Result<SearchStatus, QueryError>;
 
     /// [`Search::path_to`].
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
@@ -33,15 +38,15 @@ pub(crate) trait Erased {
 }
 
 impl<S: Search> Erased for S {
-    fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
+    fn solve(&mut self, query: Ends) -> Result<Answer, QueryError> {
         Search::solve(self, query)
     }
 
-    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+    fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {
         Search::distance(self, query)
     }
 
-    fn begin(&mut self, query: Query, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, mut observer: &mut dyn Observer) -> Result<SearchStatus, QueryError> {
         Search::begin(self, query, &mut observer)
     }
 
@@ -50,11 +55,11 @@ impl<S: Search> Erased for S {
         starts: &[Vertex],
         goal: Vertex,
         mut observer: &mut dyn Observer,
-    ) -> Option<Status> {
+    ) -> Option<SearchStatus> {
         Search::begin_from(self, starts, goal, &mut observer)
     }
 
-    fn proceed(&mut self, mut observer: &mut dyn Observer) -> Result<Status, QueryError> {
+    fn proceed(&mut self, mut observer: &mut dyn Observer) -> Result<SearchStatus, QueryError> {
         Search::proceed(self, &mut observer)
     }
 
@@ -75,7 +80,7 @@ impl<S: Search> Erased for S {
 pub(crate) struct Dynamic<'s>(pub(crate) &'s mut (dyn Erased + Send));
 
 impl Search for Dynamic<'_> {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.0.begin(query, observer)
     }
 
@@ -84,11 +89,11 @@ impl Search for Dynamic<'_> {
         starts: &[Vertex],
         goal: Vertex,
         observer: &mut impl Observer,
-    ) -> Option<Status> {
+    ) -> Option<SearchStatus> {
         self.0.begin_from(starts, goal, observer)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.0.proceed(observer)
     }
 

@@ -25,7 +25,7 @@ use crate::{
 /// what was expected, what was found, and what to do, and may be worded better in any version.
 ///
 /// ```
-/// use mediant::{Map, Error, ErrorCode};
+/// use mediant::{Error, ErrorCode, Map};
 /// let map = Map::from_rows(["..#", "..."])?;
 /// let error = map.path((2, 0), (0, 0)).unwrap_err();
 /// assert_eq!((error.code(), error.code().name()), (ErrorCode::StartBlocked, "start-blocked"));

@@ -1,7 +1,7 @@
 //! Cells that count otherwise for one query.
 
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Outcome, Request};
+use mediant_search::{Answer, Query};
 
 use crate::{
     choice::Choice, engine::Engine, error::Error, map::Map, planner::Planner, setup::Setup, space::Space,
@@ -17,9 +17,9 @@ use crate::{
 /// let space = Map::from_rows([".....", "@..@.", "....."])?.space(Motion::centers(K::N8))?;
 /// let mut planner = space.planner(Engine::Subgoal)?;
 /// let answer = planner.find_except(Query::new((3, 1), (0, 1)), &Exceptions::new().free_ends())?;
-/// assert_eq!(answer.outcome.cost(), Some(3.0));
+/// assert_eq!(answer.answer.cost(), Some(3.0));
 /// let around = Exceptions::new().free_ends().blocked([(1, 1)]);
-/// assert!(planner.find_except(Query::new((3, 1), (0, 1)), &around)?.outcome.cost() > Some(3.0));
+/// assert!(planner.find_except(Query::new((3, 1), (0, 1)), &around)?.answer.cost() > Some(3.0));
 /// # Ok::<(), mediant::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub struct Exceptions {
 #[non_exhaustive]
 pub struct ExceptedAnswer {
     /// The answer, which is that of the map with these cells changed.
-    pub outcome: Outcome,
+    pub answer: Answer,
     /// The engine that searched: the planner's if it prepares little, or if the map already has the cells as
     /// the query wants them, else one that prepares next to nothing.
     pub searched_by: Engine,
@@ -71,16 +71,16 @@ impl Exceptions {
     }
 
     /// The space with the exceptions made; `None` if nothing changes.
-    fn space(&self, space: &Space, request: &Request) -> Result<Option<Space>, Error> {
+    fn space(&self, space: &Space, query: &Query) -> Result<Option<Space>, Error> {
         let (map, motion) = (space.map(), space.motion());
         let mut changed = map.edit_cells(self.cells.iter().copied())?;
         if self.free_ends {
-            let ends = request.starts().iter().chain(request.goals());
+            let ends = query.starts().iter().chain(query.goals());
             let shut: Vec<_> =
                 ends.filter_map(|&end| shut_cell(&changed, motion.rules.placement(), end)).collect();
             changed = changed.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;
         }
-        Ok(if changed == *map { None } else { Some(changed.within(request.limits()).space(motion)?) })
+        Ok(if changed == *map { None } else { Some(changed.within(query.limits()).space(motion)?) })
     }
 }
 
@@ -99,7 +99,7 @@ fn shut_cell(map: &Map, placement: PlacementKind, at: Vertex) -> Option<Vertex> 
 }
 
 impl Planner {
-    /// Answers a query or a request on the map with some cells changed: what [`find`](Self::find) answers
+    /// Answers a query or a query on the map with some cells changed: what [`find`](Self::find) answers
     /// after an edit of these cells, on a planner that was made anew. The planner stays as it is.
     ///
     /// Nothing that was prepared is used where a cell differs: connected components are found again, and an
@@ -108,31 +108,31 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if
-    /// the request's limits stop what is prepared.
+    /// the query's limits stop what is prepared.
     pub fn find_except(
         &mut self,
-        request: impl Into<Request>,
+        query: impl Into<Query>,
         exceptions: &Exceptions,
     ) -> Result<ExceptedAnswer, Error> {
-        let request = request.into();
-        let mut other = self.except(&request, exceptions)?;
+        let query = query.into();
+        let mut other = self.except(&query, exceptions)?;
         let planner = other.as_mut().unwrap_or(self);
         let searched_by = planner.index().searched_by();
-        Ok(ExceptedAnswer { outcome: planner.find(request)?, searched_by })
+        Ok(ExceptedAnswer { answer: planner.find(query)?, searched_by })
     }
 
     /// The planner of [`find_except`](Self::find_except), for one who wants its events or its steps; `None`
     /// if the map already has the cells as the exceptions want them, so that this planner answers.
     ///
     /// # Errors
-    /// [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if the request's limits stop
+    /// [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if the query's limits stop
     /// what is prepared.
-    pub fn except(&self, request: &Request, exceptions: &Exceptions) -> Result<Option<Self>, Error> {
-        let Some(space) = exceptions.space(self.index().space(), request)? else { return Ok(None) };
+    pub fn except(&self, query: &Query, exceptions: &Exceptions) -> Result<Option<Self>, Error> {
+        let Some(space) = exceptions.space(self.index().space(), query)? else { return Ok(None) };
         let Setup { engine, smoothing, .. } = self.index().setup();
         let is_online = engine.kind().capabilities().index.is_none();
         let engine = if is_online { engine } else { Choice::for_one_path(space.motion()).engine.into() };
-        let index = space.within(request.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
+        let index = space.within(query.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
         Ok(Some(index.try_planner()?))
     }
 }

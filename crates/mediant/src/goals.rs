@@ -4,7 +4,7 @@ use std::{fmt, sync::Arc};
 
 use mediant_grid::{FreeSpace, Identity, Interrupt, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{End, Query, QueryError, Request, parts::HasFreeSpace};
+use mediant_search::{End, Ends, Query, QueryError, parts::HasFreeSpace};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
 use crate::{error::Error, index::Index, planner::Planner, within::NEVER};
@@ -174,7 +174,7 @@ impl Planner {
             return Ok(costs.iter().map(|cost| cost.map_or(f64::INFINITY, Cost::to_f64)).collect());
         }
         let mut distance = |&goal: &Vertex| -> Result<f64, Error> {
-            Ok(self.distance(Query::new(start, goal))?.unwrap_or(f64::INFINITY))
+            Ok(self.distance(Ends::new(start, goal))?.unwrap_or(f64::INFINITY))
         };
         goals.vertices().iter().map(&mut distance).collect()
     }
@@ -206,7 +206,7 @@ impl Planner {
                 .min_by(|(_, a), (_, b)| a.total_cmp(b))
                 .filter(|(_, least)| least.is_finite()));
         }
-        let found = self.find(Request::between([start], goals.vertices().iter().copied()))?.into_path();
+        let found = self.find(Query::between([start], goals.vertices().iter().copied()))?.into_path();
         let end = |path: &mediant_search::Path| path.waypoints().last().copied();
         Ok(found.and_then(|path| {
             let end = end(&path)?;

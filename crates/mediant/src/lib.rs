@@ -49,11 +49,11 @@
 //! # Many paths: an index and a planner
 //!
 //! An [`Engine`] prepares an [`Index`] of a space: once for a map, which may take a while. A [`Planner`]
-//! answers one [`Query`] after another on it, far sooner than a path without an index takes.
+//! answers one [`Ends`] after another on it, far sooner than a path without an index takes.
 //! [`Space::engine`] names the engine that we would take, and [`Space::engine_for`] for how many paths.
 //!
 //! ```
-//! use mediant::{Map, Motion, Outcome, Query};
+//! use mediant::{Answer, Map, Motion, Query};
 //!
 //! let space = Map::from_fn(64, 64, |x, y| x % 9 == 4 && y % 7 != 3)?.space(Motion::default())?;
 //! let index = space.prepare(space.engine())?;
@@ -63,7 +63,7 @@
 //! }
 //! // A query can have wishes, and says what became of them.
 //! match planner.find(Query::new((0, 0), (4, 0)).nearest())? {
-//!     Outcome::Nearest(path) => println!("the goal is blocked, this is next to it: {path}"),
+//!     Answer::Nearest(path) => println!("the goal is blocked, this is next to it: {path}"),
 //!     answer => println!("{answer}"),
 //! }
 //! # Ok::<(), mediant::Error>(())
@@ -96,7 +96,7 @@
 //!
 //! | to … | there is |
 //! |---|---|
-//! | ask for several ends, a tolerance, the nearest reachable vertex, limits | [`Request`] |
+//! | ask for several ends, a tolerance, the nearest reachable vertex, limits | [`Query`] |
 //! | stop a search, or go on in steps | [`Limits`], [`Planner::begin`](Planner#a-search-in-steps) |
 //! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
 //! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
@@ -122,7 +122,6 @@
 
 mod absent;
 mod agent;
-mod answer;
 pub mod call;
 mod capabilities;
 mod change;
@@ -170,7 +169,6 @@ mod trace;
 mod within;
 
 pub use agent::Disc;
-pub use answer::{Answer, Status};
 pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
@@ -189,7 +187,7 @@ pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rectangle, Rules,
 /// The mathematics of the neighborhoods: moves, h_k, bounds.
 pub use mediant_moves as moves;
 pub use mediant_moves::{Cost, FiniteK, K};
-pub use mediant_search::{Guarantee, Limit, Outcome, Path, Query, Request, Smoothing, Stopped};
+pub use mediant_search::{Answer, Ends, Guarantee, Limit, Path, Query, Smoothing, Status, Stopped};
 pub use motion::Motion;
 pub use planner::Planner;
 pub use planners::Planners;

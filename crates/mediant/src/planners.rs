@@ -1,4 +1,4 @@
-//! Planners that threads share, and many requests at once.
+//! Planners that threads share, and many queries at once.
 
 use std::{
     fmt,
@@ -9,7 +9,7 @@ use std::{
 };
 
 use mediant_grid::Vertex;
-use mediant_search::{Outcome, Path, QueryError, Request};
+use mediant_search::{Answer, Path, Query, QueryError};
 
 use crate::{error::Error, index::Index, planner::Planner};
 
@@ -20,11 +20,11 @@ use crate::{error::Error, index::Index, planner::Planner};
 /// resource of Bevy, where a [`Planner`] cannot.
 ///
 /// ```
-/// use mediant::{Engine, K, Map, Motion, Planners, Query};
+/// use mediant::{Ends, Engine, K, Map, Motion, Planners};
 ///
 /// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::centers(K::N8))?;
 /// let planners = Planners::new(space.prepare(Engine::Subgoal)?);
-/// let queries: Vec<Query> = (0..9).map(|y| Query::new((0, y), (8, y))).collect();
+/// let queries: Vec<Ends> = (0..9).map(|y| Ends::new((0, y), (8, y))).collect();
 /// let answers = planners.find_all(&queries);
 /// assert_eq!(answers[8].as_ref().ok().and_then(|answer| answer.cost()), Some(8.0));
 /// assert_eq!(answers[0], planners.find(queries[0]));
@@ -35,7 +35,7 @@ pub struct Planners {
     idle: Mutex<Vec<Planner>>,
 }
 
-/// How far a batch of requests is; any thread may look, and cancel the rest.
+/// How far a batch of queries is; any thread may look, and cancel the rest.
 #[derive(Debug, Default)]
 pub struct BatchProgress {
     done: AtomicUsize,
@@ -43,13 +43,13 @@ pub struct BatchProgress {
 }
 
 impl BatchProgress {
-    /// The number of requests that were answered.
+    /// The number of queries that were answered.
     #[must_use]
     pub fn done(&self) -> usize {
         self.done.load(Ordering::Relaxed)
     }
 
-    /// Leaves out the requests that no thread has begun with. A request that takes long has
+    /// Leaves out the queries that no thread has begun with. A query that takes long has
     /// [limits](mediant_search::Limits::cancel) of its own.
     pub fn cancel(&self) {
         self.is_cancelled.store(true, Ordering::Relaxed);
@@ -63,7 +63,7 @@ impl BatchProgress {
 }
 
 impl Planners {
-    /// How many requests [`find_in_chunks`](Self::find_in_chunks) hands to a thread at once.
+    /// How many queries [`find_in_chunks`](Self::find_in_chunks) hands to a thread at once.
     pub const CHUNK: usize = 256;
 
     /// No planners yet, on this index.
@@ -118,12 +118,12 @@ impl Planners {
         self.idle.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Answers a query or a request.
+    /// Answers a query or a query.
     ///
     /// # Errors
     /// As for [`Planner::find`].
-    pub fn find(&self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
-        self.with(|planner| planner.find(request))
+    pub fn find(&self, query: impl Into<Query>) -> Result<Answer, QueryError> {
+        self.with(|planner| planner.find(query))
     }
 
     /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
@@ -138,29 +138,29 @@ impl Planners {
         self.with(|planner| planner.path(start, goal))
     }
 
-    /// Answers many queries or requests, in their order; with the feature `parallel` on all cores. The
+    /// Answers many queries or queries, in their order; with the feature `parallel` on all cores. The
     /// answers are the same on any number of threads.
-    pub fn find_all<R>(&self, requests: &[R]) -> Vec<Result<Outcome, QueryError>>
+    pub fn find_all<R>(&self, queries: &[R]) -> Vec<Result<Answer, QueryError>>
     where
-        R: Clone + Into<Request> + Sync,
+        R: Clone + Into<Query> + Sync,
     {
         let (progress, add) = (BatchProgress::default(), |all: &mut Vec<_>, answer| all.push(answer));
-        let request = |index: usize| requests[index].clone();
-        self.find_in_chunks(requests.len(), request, &progress, add).into_iter().flatten().collect()
+        let query = |index: usize| queries[index].clone();
+        self.find_in_chunks(queries.len(), query, &progress, add).into_iter().flatten().collect()
     }
 
-    /// Answers the requests 0, 1, …, `count` − 1, and hands each answer to `add`, which adds it to the result
+    /// Answers the queries 0, 1, …, `count` − 1, and hands each answer to `add`, which adds it to the result
     /// of its chunk: to a sum, or to flat arrays. The results come in the order of the chunks, each of
-    /// [`CHUNK`](Self::CHUNK) requests. After a cancellation some are cut short.
+    /// [`CHUNK`](Self::CHUNK) queries. After a cancellation some are cut short.
     pub fn find_in_chunks<R, C>(
         &self,
         count: usize,
-        request: impl Fn(usize) -> R + Sync,
+        query: impl Fn(usize) -> R + Sync,
         progress: &BatchProgress,
-        add: impl Fn(&mut C, Result<Outcome, QueryError>) + Sync,
+        add: impl Fn(&mut C, Result<Answer, QueryError>) + Sync,
     ) -> Vec<C>
     where
-        R: Into<Request>,
+        R: Into<Query>,
         C: Default + Send,
     {
         in_order(count.div_ceil(Self::CHUNK), |chunk| {
@@ -171,7 +171,7 @@ impl Planners {
                     if progress.is_cancelled() {
                         break;
                     }
-                    add(&mut result, planner.find(request(index)));
+                    add(&mut result, planner.find(query(index)));
                     progress.done.fetch_add(1, Ordering::Relaxed);
                 }
             });

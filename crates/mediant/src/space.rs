@@ -7,7 +7,7 @@ use mediant_grid::{
     Rules, Vertex, uninterrupted,
 };
 use mediant_moves::FiniteK;
-use mediant_search::{End, Query, QueryError, Wavefront};
+use mediant_search::{End, Ends, QueryError, Wavefront};
 use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
@@ -292,7 +292,7 @@ impl Space {
     }
 
     /// Checks the ends of a query.
-    pub(crate) fn check_query(&self, query: Query) -> Result<(), Error> {
+    pub(crate) fn check_query(&self, query: Ends) -> Result<(), Error> {
         Ok(match self.placed() {
             Placed::Centers(layers) => query.check(&layers.free),
             Placed::Corners(layers) => query.check(&layers.free),

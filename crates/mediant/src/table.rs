@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use mediant_grid::{Interrupted, Vertex};
-use mediant_search::{End, Limits, Outcome, Query, Request};
+use mediant_search::{Answer, End, Ends, Limits, Query};
 
 use crate::{
     error::Error,
@@ -93,8 +93,8 @@ impl Index {
             let first = chunk * Planners::CHUNK;
             planners.with(|planner| {
                 let numbers = first..count.min(first + Planners::CHUNK);
-                let query = |index: usize| Query::new(starts[index / columns], goals[index % columns]);
-                numbers.map(|index| stop.length(planner, query(index))).collect()
+                let ends = |index: usize| Ends::new(starts[index / columns], goals[index % columns]);
+                numbers.map(|index| stop.length(planner, ends(index))).collect()
             })
         };
         let chunks: Result<Vec<Vec<f64>>, Error> =
@@ -123,21 +123,21 @@ impl Stop<'_> {
     }
 
     /// The length of the path of a query, infinite where there is none.
-    fn length(&self, planner: &mut Planner, query: Query) -> Result<f64, Error> {
+    fn length(&self, planner: &mut Planner, ends: Ends) -> Result<f64, Error> {
         self.check()?;
-        let request = match self.limits.interrupt().is_never() {
-            true => Request::from(query),
-            false => query.within(self.limits.clone()),
+        let query = match self.limits.interrupt().is_never() {
+            true => Query::from(ends),
+            false => Query::from(ends).within(self.limits.clone()),
         };
-        match planner.find(request)? {
-            Outcome::Stopped(stopped) => {
+        match planner.find(query)? {
+            Answer::Stopped(stopped) => {
                 // So that the others know it.
                 self.check()?;
                 Err(Error::Stopped { by: stopped.by, during: DURING })
             }
-            outcome => {
+            answer => {
                 let guarantee = planner.index().setup().guarantee();
-                Ok(outcome.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
+                Ok(answer.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
             }
         }
     }

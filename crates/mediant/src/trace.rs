@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
-use mediant_search::{NodeEvent, Observer, Outcome, Path, Query};
+use mediant_search::{Answer, Ends, NodeEvent, Observer, Path};
 
 /// Writes the events of one search for the Posthoc visualizer, as an observer of that search or of one that
 /// was kept. First the search is made, since the trace [begins](Self::begin) with the ends of its path.
@@ -12,16 +12,16 @@ use mediant_search::{NodeEvent, Observer, Outcome, Path, Query};
 /// Needs the feature `trace`.
 ///
 /// ```
-/// use mediant::{K, Map, Motion, Query, search::Tracer};
+/// use mediant::{K, Map, Motion, Ends, search::Tracer};
 ///
 /// let space = Map::from_rows(["...", ".#."])?.space(Motion::centers(K::N8))?;
 /// let mut planner = space.planner(space.engine())?;
-/// let query = Query::new((0, 0), (2, 1));
-/// let answer = planner.find(query)?;
+/// let ends = Ends::new((0, 0), (2, 1));
+/// let answer = planner.find(ends)?;
 /// let mut tracer = Tracer::new(Vec::new(), space.map().grid(), space.motion().rules.placement())?;
-/// tracer.begin(query, Some(&answer));
+/// tracer.begin(ends, Some(&answer));
 /// // The same query gives the same answer.
-/// planner.find_observed(query, &mut tracer)?;
+/// planner.find_observed(ends, &mut tracer)?;
 /// tracer.end(Some(&answer));
 /// let json = String::from_utf8(tracer.finish()?)?;
 /// assert!(json.contains(r#"{"type":"source","id":1"#));
@@ -51,14 +51,14 @@ impl<'g, W: Write> Tracer<'g, W> {
 
     /// Writes the start and the goal: those of the path, if found. An end outside the map has no event.
     /// Without an answer the search has not ended.
-    pub fn begin(&mut self, query: Query, answer: Option<&Outcome>) {
+    pub fn begin(&mut self, ends: Ends, answer: Option<&Answer>) {
         let start = answer.and_then(path_of).and_then(|path| path.waypoints().first());
-        let goal = answer.and_then(Outcome::path).and_then(|path| path.waypoints().last());
-        let ends = [
-            (TraceEventKind::Source, *start.unwrap_or(&query.start), Some(0.0)),
-            (TraceEventKind::Destination, *goal.unwrap_or(&query.goal), None),
+        let goal = answer.and_then(Answer::path).and_then(|path| path.waypoints().last());
+        let events = [
+            (TraceEventKind::Source, *start.unwrap_or(&ends.start), Some(0.0)),
+            (TraceEventKind::Destination, *goal.unwrap_or(&ends.goal), None),
         ];
-        for (kind, at, g) in ends {
+        for (kind, at, g) in events {
             if (0..self.size.0 as i32).contains(&at.x) && (0..self.size.1 as i32).contains(&at.y) {
                 self.write(kind, &TraceEvent { g, ..self.at(at) });
             }
@@ -67,7 +67,7 @@ impl<'g, W: Write> Tracer<'g, W> {
 
     /// Ends the trace with the waypoints of the path, after a stopped search those of the best so far. So the
     /// visualizer shows the path as it is, even if it turns at a vertex that is not a node of the search.
-    pub fn end(&mut self, answer: Option<&Outcome>) {
+    pub fn end(&mut self, answer: Option<&Answer>) {
         self.close();
         let mut last: Option<(TraceEvent, Vertex)> = None;
         for &at in answer.and_then(path_of).map_or(&[][..], Path::waypoints) {
@@ -118,10 +118,10 @@ impl<'g, W: Write> Tracer<'g, W> {
 }
 
 /// The path of an answer; of a stopped search the best so far.
-const fn path_of(outcome: &Outcome) -> Option<&Path> {
-    match outcome {
-        Outcome::Stopped(stopped) => Some(&stopped.best),
-        _ => outcome.path(),
+const fn path_of(answer: &Answer) -> Option<&Path> {
+    match answer {
+        Answer::Stopped(stopped) => Some(&stopped.best),
+        _ => answer.path(),
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::Path as FilePath;
 
 use mediant_grid::{Clearance, Fit, Interrupt, Outside, Vertex};
 use mediant_moves::K;
-use mediant_search::{Limits, Path, Query};
+use mediant_search::{Ends, Limits, Path};
 use mediant_subgoal::Progress;
 
 use crate::{
@@ -82,7 +82,7 @@ impl Within<'_, Map> {
     /// # Errors
     /// As for [`Map::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.of.path_of(Query::new(start, goal), &self.limits)
+        self.of.path_of(Ends::new(start, goal), &self.limits)
     }
 
     /// [`Map::clearance`].
@@ -175,7 +175,7 @@ impl Within<'_, Space> {
     /// # Errors
     /// As for [`Space::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.of.path_of(Query::new(start, goal), &self.limits)
+        self.of.path_of(Ends::new(start, goal), &self.limits)
     }
 
     /// [`Space::field`].

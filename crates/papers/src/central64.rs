@@ -4,7 +4,7 @@ use mediant_bench::{PublishedRow, ReferenceTimings, Study};
 use mediant_report::{
     Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, number, stats, thousands,
 };
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use super::{
     context::{Context, How},
@@ -65,7 +65,7 @@ fn measure_central(context: &Context<'_>) -> Result<Findings, Error> {
         let queries = map.queries(every)?;
         let optima = costs(&run(&mut Study::new(&grid, &queries, 0), "subgoal:any:open")?);
         let solvable = queries.into_iter().zip(optima).filter(|(_, optimum)| *optimum > 0.0);
-        let (queries, optima): (Vec<Query>, Vec<f64>) = solvable.unzip();
+        let (queries, optima): (Vec<Ends>, Vec<f64>) = solvable.unzip();
         let mut study = Study::new(&grid, &queries, context.passes());
         central_setups()
             .map(|text| Ok(Sums::of(&run(&mut study, text)?, &optima)))

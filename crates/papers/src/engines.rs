@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use mediant::Setup;
 use mediant_bench::Study;
 use mediant_report::{Axis, Chart, Column, Mark, Record, Row, Series, Table, number, thousands};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use super::{
     context::{Context, How},
@@ -136,7 +136,7 @@ fn setups() -> impl Iterator<Item = (&'static str, &'static str)> {
 fn on_map(context: &Context<'_>, map: &Map, count: usize) -> Result<Vec<Sums>, Error> {
     let grid = map.grid()?;
     let candidates = map.queries(1)?;
-    let candidates: Vec<Query> =
+    let candidates: Vec<Ends> =
         candidates.iter().step_by((candidates.len() / (2 * count)).max(1)).copied().collect();
     let lengths = |reference: &str| -> Result<Vec<f64>, Error> {
         Ok(costs(&run(&mut Study::new(&grid, &candidates, 0), reference)?))
@@ -146,7 +146,7 @@ fn on_map(context: &Context<'_>, map: &Map, count: usize) -> Result<Vec<Sums>, E
         (0..candidates.len()).filter(|&at| corners[at] > 0.0 && centers[at] > 0.0).collect();
     let picked: Vec<usize> =
         solvable.iter().step_by((solvable.len() / count).max(1)).copied().take(count).collect();
-    let queries: Vec<Query> = picked.iter().map(|&at| candidates[at]).collect();
+    let queries: Vec<Ends> = picked.iter().map(|&at| candidates[at]).collect();
     let mut study = Study::new(&grid, &queries, context.passes());
     setups()
         .map(|(placement, setup)| {

@@ -8,7 +8,7 @@ use mediant_bench::Study;
 use mediant_grid::{Grid, Rules, Vertex};
 use mediant_oracle::{Rng, maze, noise, sparse};
 use mediant_report::{Column, Record, Row, Table, number};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use super::{
     context::{Context, How},
@@ -144,7 +144,7 @@ fn on_family(context: &Context<'_>, map: &Map, family: &Family, count: usize) ->
         .iter()
         .map(|setup| setup.space(&library).map_err(|wrong| Error::Reproduce(wrong.to_string())))
         .collect::<Result<_, _>>()?;
-    let connected = |query: Query| spaces.iter().all(|space| space.connected(query.start, query.goal));
+    let connected = |query: Ends| spaces.iter().all(|space| space.connected(query.start, query.goal));
     let queries = if family.is_crossed {
         crossing(&mut rng, family.side, count, connected)
     } else {
@@ -157,7 +157,7 @@ fn on_family(context: &Context<'_>, map: &Map, family: &Family, count: usize) ->
 }
 
 /// Queries from near the first corner of a square map to near the last.
-fn crossing(rng: &mut Rng, side: u32, count: usize, connected: impl Fn(Query) -> bool) -> Vec<Query> {
+fn crossing(rng: &mut Rng, side: u32, count: usize, connected: impl Fn(Ends) -> bool) -> Vec<Ends> {
     let near = side / 16;
     let mut queries = Vec::with_capacity(count);
     while queries.len() < count {
@@ -165,8 +165,8 @@ fn crossing(rng: &mut Rng, side: u32, count: usize, connected: impl Fn(Query) ->
         let start = Vertex::new(draw(), draw());
         let goal = Vertex::new(side as i32 - 1 - draw(), side as i32 - 1 - draw());
         // Almost everything there is free.
-        if connected(Query::new(start, goal)) {
-            queries.push(Query::new(start, goal));
+        if connected(Ends::new(start, goal)) {
+            queries.push(Ends::new(start, goal));
         }
     }
     queries

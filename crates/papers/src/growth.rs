@@ -173,7 +173,7 @@ fn on_tiles(
         .space(&mediant::Map::from(Arc::clone(&grid)))
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = reference.rules();
-    let connected = |query: mediant_search::Query| space.connected(query.start, query.goal);
+    let connected = |query: mediant_search::Ends| space.connected(query.start, query.goal);
     let queries = random_queries(&mut context.rng(map), &grid, rules, count, connected);
     let mut study = Study::new(&grid, &queries, context.passes());
     setups.iter().map(|text| Ok(OnTiles::new(&grid, &run(&mut study, text)?))).collect()

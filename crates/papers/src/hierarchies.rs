@@ -4,7 +4,7 @@ use mediant_bench::Study;
 use mediant_report::{
     Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, number, stats, thousands,
 };
-use mediant_search::Query;
+use mediant_search::Ends;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -94,7 +94,7 @@ fn on_map(context: &Context<'_>, map: &Map, k: &str, every: usize) -> Result<Opt
     let queries = map.queries(every)?;
     let optimal = run(&mut Study::new(&grid, &queries, 0), &format!("astar:{k}"))?;
     let pairs = queries.into_iter().zip(costs(&optimal)).filter(|(_, cost)| *cost > 0.0);
-    let (queries, optima): (Vec<Query>, Vec<f64>) = pairs.unzip();
+    let (queries, optima): (Vec<Ends>, Vec<f64>) = pairs.unzip();
     if queries.is_empty() {
         return Ok(None);
     }

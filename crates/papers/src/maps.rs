@@ -8,7 +8,7 @@ use std::{
 use mediant_formats::{Instance, MapFile, Scenario};
 use mediant_grid::{Grid, PlacementKind, Rules};
 use mediant_oracle::{Rng, random_free_vertex};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use crate::Error;
 
@@ -39,11 +39,11 @@ impl Map {
     }
 
     /// The queries of its scenario whose index `every` divides, without those that start at their goal.
-    pub(super) fn queries(&self, every: usize) -> Result<Vec<Query>, Error> {
+    pub(super) fn queries(&self, every: usize) -> Result<Vec<Ends>, Error> {
         let instances = self.instances()?;
         let picked =
             instances.iter().step_by(every.max(1)).filter(|instance| instance.start != instance.goal);
-        Ok(picked.map(|instance| Query::new(instance.start, instance.goal)).collect())
+        Ok(picked.map(|instance| Ends::new(instance.start, instance.goal)).collect())
     }
 
     /// Random numbers by the seed and the map's name: other maps do not change them.
@@ -68,8 +68,8 @@ pub(super) fn random_queries(
     grid: &Grid,
     rules: Rules,
     count: usize,
-    mut solvable: impl FnMut(Query) -> bool,
-) -> Vec<Query> {
+    mut solvable: impl FnMut(Ends) -> bool,
+) -> Vec<Ends> {
     let placement: PlacementKind = rules.placement();
     let mut queries = Vec::with_capacity(count);
     for _ in 0..1000 * count {
@@ -78,7 +78,7 @@ pub(super) fn random_queries(
         }
         let mut draw = || random_free_vertex(rng, grid, placement);
         let (Some(start), Some(goal)) = (draw(), draw()) else { break };
-        let query = Query::new(start, goal);
+        let query = Ends::new(start, goal);
         if start != goal && solvable(query) {
             queries.push(query);
         }
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn random_queries_are_solvable_and_repeatable() {
         let grid = Grid::from_fn(9, 4, |x, _| x == 4).unwrap();
-        let same_side = |query: Query| (query.start.x < 4) == (query.goal.x < 4);
+        let same_side = |query: Ends| (query.start.x < 4) == (query.goal.x < 4);
         let rules = Rules::Center(CornerRule::Never);
         let map = Map::new("set", Path::new("folder/wall.map"));
         let draw = |seed| random_queries(&mut map.rng(seed), &grid, rules, 50, same_side);

@@ -143,14 +143,14 @@ pub(super) fn costs(run: &Run) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use mediant_bench::{Answer, Preparation};
+    use mediant_bench::{PathFigures, Preparation};
     use mediant_search::Counters;
 
     use super::*;
 
-    fn answer(cost: f64, expanded: u64) -> Option<Answer> {
+    fn answer(cost: f64, expanded: u64) -> Option<PathFigures> {
         let counters = Counters { expanded, percolations: 10 * expanded, ..Counters::default() };
-        Some(Answer { cost, moves: 3, waypoints: 2, smoothness: 45.0, counters })
+        Some(PathFigures { cost, moves: 3, waypoints: 2, smoothness: 45.0, counters })
     }
 
     #[test]

@@ -10,7 +10,7 @@ use mediant_oracle::Rng;
 use mediant_report::{
     Axis, Chart, Claim, Column, Mark, Record, Row, Series, Table, number, stats, thousands,
 };
-use mediant_search::Query;
+use mediant_search::Ends;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -70,12 +70,12 @@ const ALGORITHMS: [(&str, &str); 17] = [
 const ERRORS: [(&str, &str); 3] = [("error_to_md", MD), ("error_to_sed", SED), ("error_to_chpa", STEPS[1])];
 
 /// The instances of a scenario by length, cut into equal parts, one drawn from each.
-fn draw(mut instances: Vec<Instance>, parts: usize, rng: &mut Rng) -> Vec<Query> {
+fn draw(mut instances: Vec<Instance>, parts: usize, rng: &mut Rng) -> Vec<Ends> {
     instances.sort_by(|a, b| a.optimal.total_cmp(&b.optimal));
     let at = |part: usize| part * instances.len() / parts;
     let drawn = (0..parts).filter(|&part| at(part) < at(part + 1)).map(|part| {
         let instance = &instances[at(part) + rng.below((at(part + 1) - at(part)) as u32) as usize];
-        Query::new(instance.start, instance.goal)
+        Ends::new(instance.start, instance.goal)
     });
     drawn.collect()
 }
@@ -133,13 +133,13 @@ fn on_map(context: &Context<'_>, map: &Map, parts: usize) -> Result<Part, Error>
         .into_iter()
         .zip(costs(&optimal))
         .filter(|(query, cost)| *cost > 0.0 && query.start != query.goal);
-    let (queries, optima): (Vec<Query>, Vec<f64>) = pairs.unzip();
+    let (queries, optima): (Vec<Ends>, Vec<f64>) = pairs.unzip();
     let mut study = Study::new(&grid, &queries, context.passes());
     let mut part = Part { sums: Vec::new(), nodes: Vec::new(), lengths: Vec::new() };
     for (setup, _) in ALGORITHMS {
         let run = run(&mut study, setup)?;
         part.sums.push(Sums::of(&run, &optima));
-        let nodes = |answer: &Option<mediant_bench::Answer>| {
+        let nodes = |answer: &Option<mediant_bench::PathFigures>| {
             answer.map_or(0.0, |answer| answer.counters.expanded as f64)
         };
         part.nodes.push(run.answers.iter().map(nodes).collect());

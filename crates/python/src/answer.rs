@@ -1,6 +1,6 @@
 //! The answer to a query.
 
-use mediant::{Error, ErrorCode, Guarantee, Limit, Outcome, Rules, Stopped, search::Counters};
+use mediant::{Answer, Error, ErrorCode, Guarantee, Limit, Rules, Stopped, search::Counters};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -44,8 +44,8 @@ use crate::{arrays::PathPoints, errors::made};
 /// >>> answer = mediant.Grid.from_rows(["......"] * 4).find((0, 0), (3, 4), placement="corner")
 /// >>> round(answer.distance, 2), answer.any_angle_lower_bound
 /// (5.24, 5.0)
-#[pyclass(frozen, module = "mediant")]
-pub(crate) struct Answer {
+#[pyclass(frozen, module = "mediant", name = "Answer")]
+pub(crate) struct PyAnswer {
     /// The status of the query.
     #[pyo3(get)]
     status: &'static str,
@@ -73,63 +73,62 @@ pub(crate) struct Answer {
 }
 
 #[pymethods]
-impl Answer {
+impl PyAnswer {
     fn __repr__(&self) -> String {
         let Self { status, distance, .. } = self;
         format!("<mediant.Answer {status}, distance {distance}>")
     }
 }
 
-impl Answer {
+impl PyAnswer {
     /// The answer with its arrays, of an engine with this guarantee.
     pub(crate) fn new(
         py: Python<'_>,
-        outcome: &Outcome,
+        answer: &Answer,
         points: PathPoints,
         rules: Rules,
         (guarantee, counters): (Guarantee, Option<Counters>),
     ) -> PyResult<Self> {
-        let told = mediant::Answer::new(outcome, guarantee);
         let array = |path| points.array(py, path, rules.placement()).map(Bound::unbind);
         Ok(Self {
-            status: told.status().name(),
-            path: told.path().map(array).transpose()?,
-            distance: told.distance(),
-            stopped_by: told.stopped_by().map(Limit::name),
-            best: told.best().map(array).transpose()?,
-            lower_bound: told.lower_bound(),
-            any_angle_lower_bound: told.any_angle_lower_bound(rules),
+            status: answer.status().name(),
+            path: answer.path().map(array).transpose()?,
+            distance: answer.distance(guarantee),
+            stopped_by: answer.stopped_by().map(Limit::name),
+            best: answer.best().map(array).transpose()?,
+            lower_bound: answer.lower_bound(guarantee),
+            any_angle_lower_bound: answer.any_angle_lower_bound(guarantee, rules),
             counters: counters.map(|counters| in_dict(py, counters)).transpose()?,
         })
     }
 }
 
-/// The path or distance of an outcome that a limit did not stop.
+/// The path or distance of an answer that a limit did not stop.
 ///
 /// # Errors
 /// `LimitReached` with the answer.
-pub(crate) fn whole(py: Python<'_>, outcome: Outcome, points: PathPoints, rules: Rules) -> PyResult<Outcome> {
-    let Outcome::Stopped(Stopped { by, lower_bound, .. }) = &outcome else { return Ok(outcome) };
+pub(crate) fn whole(py: Python<'_>, answer: Answer, points: PathPoints, rules: Rules) -> PyResult<Answer> {
+    let Answer::Stopped(Stopped { by, lower_bound, .. }) = &answer else { return Ok(answer) };
     let text = format!(
         "the search was stopped by its limit ({}): no path is shorter than {lower_bound:.3} cells; the best so \
          far is in the error's answer",
         by.name()
     );
-    let answer = Answer::new(py, &outcome, points, rules, (Guarantee::Suboptimal, None))?;
-    Err(made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer)))
+    let told = PyAnswer::new(py, &answer, points, rules, (Guarantee::Suboptimal, None))?;
+    Err(made(py, "LimitReached", (text, ErrorCode::Stopped.name(), told)))
 }
 
 /// The answer to a query whose preparation was stopped, and the exception in its place.
 pub(crate) fn before_search(
     py: Python<'_>,
-    outcome: &Outcome,
+    answer: &Answer,
     points: PathPoints,
     rules: Rules,
     error: &Error,
-) -> PyResult<(Answer, PyErr)> {
-    let answer = || Answer::new(py, outcome, points, rules, (Guarantee::Suboptimal, None));
+) -> PyResult<(PyAnswer, PyErr)> {
+    let told = || PyAnswer::new(py, answer, points, rules, (Guarantee::Suboptimal, None));
     let text = format!("{error}: nothing was searched; allow more time, or prepare an index before");
-    Ok((answer()?, made(py, "LimitReached", (text, ErrorCode::Stopped.name(), answer()?))))
+    Ok((told()?, made(py, "LimitReached", (text, ErrorCode::Stopped.name(), told()?))))
 }
 
 /// The counters by name.

@@ -11,8 +11,8 @@ use std::{
 };
 
 use mediant::{
-    Answer, Error, Guarantee, Index, Outcome, PlacementKind, Planner, Planners, Query, Request, Status,
-    Vertex, errors::QueryError, names,
+    Answer, Ends, Error, Guarantee, Index, PlacementKind, Planner, Planners, Query, Status, Vertex,
+    errors::QueryError, names,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -192,13 +192,13 @@ impl Queries {
         }
     }
 
-    fn query(&self, index: usize) -> Query {
+    fn ends(&self, index: usize) -> Ends {
         let Self { starts, goals, .. } = self;
         if self.is_table {
-            return Query::new(starts[index / goals.len()], goals[index % goals.len()]);
+            return Ends::new(starts[index / goals.len()], goals[index % goals.len()]);
         }
         let at = |ends: &[Vertex]| ends[if ends.len() == 1 { 0 } else { index }];
-        Query::new(at(starts), at(goals))
+        Ends::new(at(starts), at(goals))
     }
 
     /// Whether their searches are watched.
@@ -207,8 +207,8 @@ impl Queries {
     }
 
     /// A query with its wishes. The flag cancels it.
-    fn request(&self, index: usize, watch: Option<&Arc<AtomicBool>>) -> Request {
-        let (query, wishes) = (self.query(index), self.keywords.call.wishes());
+    fn query(&self, index: usize, watch: Option<&Arc<AtomicBool>>) -> Query {
+        let (ends, wishes) = (self.ends(index), self.keywords.call.wishes());
         let mut limits = wishes.limits();
         if let Some(flag) = watch {
             limits = limits.cancel(Arc::clone(flag));
@@ -217,7 +217,7 @@ impl Queries {
             let begin = Instant::now();
             limits = limits.deadline(move || begin.elapsed().as_secs_f64() >= seconds);
         }
-        wishes.request(&[query.start], &[query.goal], limits)
+        wishes.query(&[ends.start], &[ends.goal], limits)
     }
 }
 
@@ -237,17 +237,16 @@ impl Chunk {
     fn add_path(
         &mut self,
         index: usize,
-        answer: &Result<Outcome, QueryError>,
+        answer: &Result<Answer, QueryError>,
         (points, placement, guarantee): (PathPoints, PlacementKind, Guarantee),
     ) {
         let known = self.points.len();
-        let told = answer.as_ref().map(|outcome| Answer::new(outcome, guarantee));
-        if let Some(path) = told.ok().and_then(|told| told.path()) {
+        if let Some(path) = answer.as_ref().ok().and_then(Answer::path) {
             points.add(path, placement, &mut self.points);
         }
-        self.statuses.push(told.map_or(INVALID, |told| told.status() as u8));
+        self.statuses.push(answer.as_ref().map_or(INVALID, |answer| answer.status() as u8));
         self.lengths.push(((self.points.len() - known) / 2) as u32);
-        let distance = told.map(|told| told.distance()).map_err(Clone::clone);
+        let distance = answer.as_ref().map(|answer| answer.distance(guarantee)).map_err(Clone::clone);
         self.add_distance(index, distance);
     }
 
@@ -307,7 +306,7 @@ pub(crate) fn paths(
     let (placement, guarantee) = (setup.rules().placement(), setup.guarantee());
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
-        let found = planner.find(queries.request(index, is_watched.then_some(flag)));
+        let found = planner.find(queries.query(index, is_watched.then_some(flag)));
         chunk.add_path(index, &found, (points, placement, guarantee));
     };
     let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
@@ -343,10 +342,10 @@ pub(crate) fn distances<'py>(
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = if is_plain {
-            planner.distance(queries.query(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
+            planner.distance(queries.ends(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
         } else {
-            let request = queries.request(index, is_watched.then_some(flag));
-            planner.find(request).map(|outcome| Answer::new(&outcome, guarantee).distance())
+            let query = queries.query(index, is_watched.then_some(flag));
+            planner.find(query).map(|answer| answer.distance(guarantee))
         };
         chunk.add_distance(index, found);
     };

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use mediant::{
-    Guarantee, Limits, Motion, Request,
+    Guarantee, Limits, Motion, Query,
     call::{Call, CallError, Group, Kind, Parameter, Spelling, Value},
     errors::absent,
     moves::Neighborhood,
@@ -102,24 +102,24 @@ impl Keywords {
         self.call.motion().map_err(call_error)
     }
 
-    /// The request for a path between points. With an interruption it is watched.
-    pub(crate) fn request(&self, start: &Points, goal: &Points, watch: Option<&Interruption>) -> Request {
+    /// The query for a path between points. With an interruption it is watched.
+    pub(crate) fn query(&self, start: &Points, goal: &Points, watch: Option<&Interruption>) -> Query {
         let limits = self.call.wishes().limits();
         let limits = match watch {
             Some(interruption) => interruption.watch(limits, self.timeout()),
             None => limits,
         };
-        self.call.wishes().request(start.as_slice(), goal.as_slice(), limits)
+        self.call.wishes().query(start.as_slice(), goal.as_slice(), limits)
     }
 
-    /// The request for a path between points, whose time limit runs from the call on, whatever comes between.
-    pub(crate) fn timed_request(&self, start: &Points, goal: &Points) -> Request {
+    /// The query for a path between points, whose time limit runs from the call on, whatever comes between.
+    pub(crate) fn timed_request(&self, start: &Points, goal: &Points) -> Query {
         let limits = self.call.wishes().limits();
         let limits = match self.timeout() {
             Some((begin, most)) => limits.deadline(move || begin.elapsed().as_secs_f64() >= most),
             None => limits,
         };
-        self.call.wishes().request(start.as_slice(), goal.as_slice(), limits)
+        self.call.wishes().query(start.as_slice(), goal.as_slice(), limits)
     }
 
     /// When the call began, and the most seconds that it may take.

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 mod _mediant {
     #[pymodule_export]
     use crate::{
-        answer::Answer,
+        answer::PyAnswer,
         field::Field,
         grid::{Disc, Grid},
         index::{Index, Search},

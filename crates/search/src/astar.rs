@@ -13,8 +13,8 @@ use crate::{
     heuristic::{Heuristic, Zero},
     observer::{Observer, Part},
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
     successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
@@ -24,7 +24,7 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{AStar, Hk, Planner, Query};
+/// use mediant_search::{AStar, Ends, Hk, Planner};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
@@ -33,8 +33,8 @@ use crate::{
 /// ")?;
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
 /// let mut planner = AStar::new(&graph, Hk);
-/// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
-/// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
+/// let answer = planner.solve(Ends::new((0, 1), (3, 1)))?;
+/// assert_eq!(answer.path().map(|path| path.cost()), Some(5.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -78,8 +78,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
         let Some(&start) = path.last() else { return Ok(false) };
         let mut observer = Part::new(observer);
         // h_k of a single move is its cost, so that no path beyond the limit reaches the goal.
-        self.begin_within(Query::new(start, goal), limit, &mut observer)?;
-        let found = self.proceed(&mut observer)? == Status::Found;
+        self.begin_within(Ends::new(start, goal), limit, &mut observer)?;
+        let found = self.proceed(&mut observer)? == SearchStatus::Found;
         if found {
             self.extend_to(path, goal);
         }
@@ -99,7 +99,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     pub fn solve_within(
         &mut self,
-        query: Query,
+        query: Ends,
         limit: Cost,
         observer: &mut impl Observer,
     ) -> Result<Option<Path>, QueryError> {

@@ -6,15 +6,15 @@ use mediant_grid::{GridGraph, Identity, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
+    guarantee::Guarantee,
     heuristic::Heuristic,
     nodes::{Node, NodeStore},
     observer::{NodeEvent, Observer},
     open_list::{Entry, OpenList},
-    outcome::Guarantee,
     parent::ParentPointer,
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
     successors::{ExpandedNode, KnownPath, Successor, Successors},
     trace_back::{extend_back, trace_back},
 };
@@ -38,7 +38,7 @@ pub struct BestFirst<G, H, S, N: ParentPointer = ()> {
     open: OpenList,
     starts: Vec<VertexId>,
     aim: Aim,
-    status: Status,
+    status: SearchStatus,
 }
 
 /// Where a search leads, and how far.
@@ -70,7 +70,7 @@ where
     /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Placement, Vertex, VertexId};
     /// use mediant_moves::FiniteK;
     /// use mediant_search::{
-    ///     Guarantee, Hk, Planner, Query,
+    ///     Ends, Guarantee, Hk, Planner,
     ///     parts::{AllMoves, BestFirst, ExpandedNode, KnownPath, Successor, Successors},
     /// };
     ///
@@ -109,22 +109,22 @@ where
     /// ")?;
     /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
     /// let mut planner = BestFirst::with_successors(&graph, Hk, Downhill);
-    /// assert!(planner.solve(Query::new((0, 0), (3, 2)))?.path().is_some());
-    /// assert!(planner.solve(Query::new((3, 2), (0, 0)))?.path().is_none());
+    /// assert!(planner.solve(Ends::new((0, 0), (3, 2)))?.path().is_some());
+    /// assert!(planner.solve(Ends::new((3, 2), (0, 0)))?.path().is_none());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
     pub fn with_successors(graph: G, heuristic: H, successors: S) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         let (open, starts) = (OpenList::default(), Vec::new());
-        let (aim, status) = (Aim::NONE, Status::default());
+        let (aim, status) = (Aim::NONE, SearchStatus::default());
         Self { graph, heuristic, successors, nodes, open, starts, aim, status }
     }
 
     /// Makes the starts the only nodes that are known.
     fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
         self.aim = aim;
-        self.status = Status::Searching;
+        self.status = SearchStatus::Searching;
         let Self { graph, heuristic, successors, nodes, open, starts, .. } = self;
         let goal_at = graph.vertex(aim.goal);
         successors.begin(graph, goal_at);
@@ -159,13 +159,13 @@ where
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     pub fn begin_within(
         &mut self,
-        query: Query,
+        query: Ends,
         limit: Cost,
         observer: &mut impl Observer,
-    ) -> Result<Status, QueryError> {
+    ) -> Result<SearchStatus, QueryError> {
         self.end_retry();
-        self.status = Status::Unreachable;
-        if let Some((start, goal)) = query.ends(&self.graph)? {
+        self.status = SearchStatus::Unreachable;
+        if let Some((start, goal)) = query.ids(&self.graph)? {
             self.set_start(start);
             self.begin_at(Aim { goal, limit, is_retry: false }, observer);
         }
@@ -173,7 +173,7 @@ where
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    fn run(&mut self, observer: &mut impl Observer) -> Status {
+    fn run(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { graph, heuristic, successors, nodes, open, aim, .. } = self;
         let (Aim { goal, limit, .. }, goal_at) = (*aim, graph.vertex(aim.goal));
         let (graph, heuristic, successors): (&GridGraph<P>, &H, &S) = (graph, heuristic, successors);
@@ -183,12 +183,12 @@ where
         {
             // With this in a function of its own, A* executes 4 % more instructions.
             let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) else {
-                return Status::Unreachable;
+                return SearchStatus::Unreachable;
             };
             observer.percolated(swaps);
             let id = entry.id();
             if id == goal {
-                return Status::Found;
+                return SearchStatus::Found;
             }
             nodes.set_slot(id, Node::<N>::CLOSED);
             let Some(node) = nodes.get(id) else { continue };
@@ -241,7 +241,7 @@ where
             let scanned = successors.for_each(graph, ExpandedNode { id, at, by }, goal_at, relax);
             observer.scanned(scanned);
         }
-        Status::Searching
+        SearchStatus::Searching
     }
 }
 
@@ -292,7 +292,7 @@ where
     S: Successors<P, ParentPointer = N>,
     N: ParentPointer,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.begin_within(query, Cost::MAX, observer)
     }
 
@@ -301,7 +301,7 @@ where
         starts: &[Vertex],
         goal: Vertex,
         observer: &mut impl Observer,
-    ) -> Option<Status> {
+    ) -> Option<SearchStatus> {
         self.end_retry();
         let goal = self.graph.id(goal)?;
         self.starts.clear();
@@ -312,15 +312,15 @@ where
         Some(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if self.status == Status::Searching {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if self.status == SearchStatus::Searching {
             self.status = self.run(observer);
-            let is_missed = self.status == Status::Unreachable && !self.aim.is_retry;
+            let is_missed = self.status == SearchStatus::Unreachable && !self.aim.is_retry;
             if is_missed && self.successors.begin_unpruned_retry() {
                 self.begin_at(Aim { is_retry: true, ..self.aim }, observer);
                 self.status = self.run(observer);
             }
-            if self.status != Status::Searching {
+            if self.status != SearchStatus::Searching {
                 self.end_retry();
             }
         }
@@ -328,7 +328,7 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let has_begun = self.status != Status::Unreachable;
+        let has_begun = self.status != SearchStatus::Unreachable;
         let id = self.graph.id(at).filter(|&id| has_begun && self.knows(id))?;
         Some(trace_back(&self.graph, &self.nodes, id))
     }

@@ -5,9 +5,9 @@ use mediant_moves::Cost;
 
 use crate::{
     observer::{Counters, NodeEvent, Observer},
-    planner::{Planner, Status},
-    query::{Query, QueryError},
-    request::Limits,
+    planner::{Planner, SearchStatus},
+    query::Limits,
+    query::{Ends, QueryError},
 };
 
 /// Answers a query and counts its work, as [`Planner::solve_observed`] does with [`Counters`]. An interrupt
@@ -17,14 +17,14 @@ use crate::{
 /// [`Interrupted`]; within, those of [`Planner::solve`].
 pub fn count_work(
     planner: &mut impl Planner,
-    query: Query,
+    query: Ends,
     interrupt: &Interrupt,
 ) -> Result<Result<Counters, QueryError>, Interrupted> {
     let counters = Counters::default();
     let mut watch = Watch { counters, interrupt, next_look: 0, stopped: Ok(()) };
     let status = planner.begin(query, &mut watch);
     let status = match status {
-        Ok(Status::Searching) => planner.proceed(&mut watch),
+        Ok(SearchStatus::Searching) => planner.proceed(&mut watch),
         status => status,
     };
     watch.stopped?;

@@ -1,7 +1,7 @@
 //! Search engines on the 2^k neighborhoods of a grid.
 //!
 //! Every engine is a [`Planner`]: it borrows an immutable [`GridGraph`](mediant_grid::GridGraph), owns its
-//! scratch memory, and answers one [`Query`] after another with an [`Outcome`], whose quality it states as a
+//! scratch memory, and answers one [`Ends`] after another with an [`Answer`], whose quality it states as a
 //! [`Guarantee`].
 //!
 //! | engine | paths | k |
@@ -15,7 +15,7 @@
 //! | [`ThetaStar`], [`LazyThetaStar`] | any-angle | all |
 //! | [`Anya`] | optimal over N(k), or any-angle; at corners | all, ∞ |
 //!
-//! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Request`] by
+//! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Query`] by
 //! any planner: a query with several ends, a tolerance, limits, in steps.
 //!
 //! A field has the distances of all vertices to the nearest of one or many sources, and the paths and
@@ -38,6 +38,7 @@
 //! This crate does not preprocess maps beyond jump tables (`mediant-subgoal` and `mediant-hierarchy` do),
 //! starts no threads, reads no clock, and writes no files.
 
+mod answer;
 mod anya;
 mod astar;
 mod best_first;
@@ -46,6 +47,7 @@ mod counted;
 mod distances;
 mod field;
 mod filled;
+mod guarantee;
 mod heuristic;
 mod jps;
 mod limit;
@@ -54,7 +56,6 @@ mod metric;
 mod nodes;
 mod observer;
 mod open_list;
-mod outcome;
 mod parent;
 pub mod parts;
 mod path;
@@ -62,7 +63,6 @@ mod planner;
 mod query;
 #[cfg(doctest)]
 mod readme;
-mod request;
 mod search_tree;
 mod segment;
 mod smoothing;
@@ -71,19 +71,19 @@ mod theta;
 mod trace_back;
 mod wavefront;
 
+pub use answer::{Answer, Status};
 pub use anya::{Anya, DeadEnds, EuclideanNorm, LatticeNorm, Norm};
 pub use astar::{AStar, Dijkstra};
 pub use canonical::{Canonical, CanonicalRule, PaperCanonical, Pruning};
 pub use distances::Distances;
 pub use field::{AnyAngleField, AnyAngleFields, Field, FieldError, FieldQuery, Fields};
+pub use guarantee::Guarantee;
 pub use heuristic::{Euclidean, Heuristic, Hk, SquaredEuclidean, Zero};
 pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};
-pub use outcome::{Guarantee, Outcome};
 pub use path::{BrokenPath, JoinError, Path, SpacingError, Turn};
-pub use planner::{Planner, Status};
-pub use query::{End, Query, QueryError};
-pub use request::{Limit, Limits, Request, Search, Stopped};
+pub use planner::{Planner, SearchStatus};
+pub use query::{End, Ends, Limit, Limits, Query, QueryError, Search, Stopped};
 pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};
 pub use theta::{LazyThetaStar, ThetaStar};
 pub use wavefront::Wavefront;

@@ -24,13 +24,13 @@ pub struct NodeEvent {
 /// # use std::sync::Arc;
 /// # use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
 /// # use mediant_moves::FiniteK;
-/// use mediant_search::{AStar, Counters, Hk, Observer, Planner, Query};
+/// use mediant_search::{AStar, Counters, Ends, Hk, Observer, Planner};
 ///
 /// # let map = AsciiMap::parse("...\n...\n")?;
 /// # let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(3)?, CornerRule::Never)?;
 /// let mut counters = Counters::default();
 /// let mut observer: &mut dyn Observer = &mut counters;
-/// AStar::new(&graph, Hk).solve_observed(Query::new((0, 0), (2, 1)), &mut observer)?;
+/// AStar::new(&graph, Hk).solve_observed(Ends::new((0, 0), (2, 1)), &mut observer)?;
 /// assert_eq!(counters.expanded, 2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

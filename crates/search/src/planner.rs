@@ -3,10 +3,11 @@
 use mediant_grid::{Identity, Vertex};
 
 use crate::{
+    answer::Answer,
+    guarantee::Guarantee,
     observer::{Observer, Part},
-    outcome::{Guarantee, Outcome},
     path::Path,
-    query::{Query, QueryError},
+    query::{Ends, QueryError},
 };
 
 /// Answers queries, one after another, on scratch memory of its own: make one for each thread.
@@ -26,7 +27,7 @@ pub trait Planner {
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError>;
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError>;
 
     /// Begins the search for the shortest of the paths from several starts to a goal, which all have a way to
     /// it. `None` by a planner that searches from one start only: nothing was begun then.
@@ -35,7 +36,7 @@ pub trait Planner {
         starts: &[Vertex],
         goal: Vertex,
         observer: &mut impl Observer,
-    ) -> Option<Status> {
+    ) -> Option<SearchStatus> {
         let _ = (starts, goal, observer);
         None
     }
@@ -45,10 +46,10 @@ pub trait Planner {
     ///
     /// # Errors
     /// [`QueryError::GaveUp`] by a planner that may fail.
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError>;
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError>;
 
     /// The best path that the search has found to a vertex: to the goal, once its status is
-    /// [`Found`](Status::Found), and to each vertex that an observer was told to be
+    /// [`Found`](SearchStatus::Found), and to each vertex that an observer was told to be
     /// [reached](Observer::reached). `None` for others, and where there is no way. A planner that needs the
     /// memory of its search to make the path that it has found may know no other paths then.
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
@@ -63,21 +64,21 @@ pub trait Planner {
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
-    fn solve_observed(&mut self, query: Query, observer: &mut impl Observer) -> Result<Outcome, QueryError> {
+    fn solve_observed(&mut self, query: Ends, observer: &mut impl Observer) -> Result<Answer, QueryError> {
         let mut observer = Part::new(observer);
         let status = match self.begin(query, &mut observer)? {
-            Status::Searching => self.proceed(&mut observer)?,
+            SearchStatus::Searching => self.proceed(&mut observer)?,
             status => status,
         };
-        let path = if status == Status::Found { self.path_to(query.goal) } else { None };
-        Ok(path.map_or(Outcome::Unreachable, Outcome::Found))
+        let path = if status == SearchStatus::Found { self.path_to(query.goal) } else { None };
+        Ok(path.map_or(Answer::Unreachable, Answer::Found))
     }
 
     /// Answers a query.
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
-    fn solve(&mut self, query: Query) -> Result<Outcome, QueryError> {
+    fn solve(&mut self, query: Ends) -> Result<Answer, QueryError> {
         self.solve_observed(query, &mut ())
     }
 
@@ -88,15 +89,15 @@ pub trait Planner {
     ///
     /// # Errors
     /// As for [`solve`](Self::solve).
-    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
-        let outcome = self.solve(query)?;
-        Ok(outcome.path().map(|path| self.guarantee().length(path)))
+    fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {
+        let answer = self.solve(query)?;
+        Ok(answer.path().map(|path| self.guarantee().length(path)))
     }
 }
 
 /// How far a search has come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Status {
+pub enum SearchStatus {
     /// It has no answer yet.
     Searching,
     /// It has found the path to the goal.

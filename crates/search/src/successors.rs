@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
-use crate::{outcome::Guarantee, parent::ParentPointer};
+use crate::{guarantee::Guarantee, parent::ParentPointer};
 
 /// A node that is about to be expanded.
 #[derive(Clone, Copy, Debug)]

@@ -29,13 +29,13 @@ use mediant_moves::{Cost, FiniteK};
 use self::quadrants::{Back, ends_at, node_at, node_count, passes_gaps, vertex_of};
 use crate::{
     distances::{Distances, end_at_gaps},
+    guarantee::Guarantee,
     nodes::NodeStore,
     observer::{NodeEvent, Observer},
-    outcome::Guarantee,
     parent::ParentPointer,
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
     trace_back::trace_back,
 };
 
@@ -45,7 +45,7 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph, Vertex};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Planner, Query, Wavefront};
+/// use mediant_search::{Ends, Planner, Wavefront};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
@@ -54,8 +54,8 @@ use crate::{
 /// ")?;
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(2)?, CornerRule::Never)?;
 /// let mut planner = Wavefront::new(&graph);
-/// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
-/// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
+/// let answer = planner.solve(Ends::new((0, 1), (3, 1)))?;
+/// assert_eq!(answer.path().map(|path| path.cost()), Some(5.0));
 /// let moves = planner.distances(Vertex::new(0, 1))?;
 /// assert_eq!((moves.get(Vertex::new(3, 1)), moves.get(Vertex::new(1, 1))), (Some(5), None));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -72,7 +72,7 @@ pub struct Wavefront<G> {
     expanded: usize,
     /// `None` for a search that finds the distances of all vertices.
     goal: Option<VertexId>,
-    status: Status,
+    status: SearchStatus,
 }
 
 impl Wavefront<()> {
@@ -89,7 +89,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
     #[must_use]
     pub fn new(graph: G) -> Self {
         let nodes = NodeStore::new(node_count(&*graph));
-        let (goal, status) = (None, Status::default());
+        let (goal, status) = (None, SearchStatus::default());
         Self { graph, nodes, reached: Vec::new(), expanded: 0, goal, status }
     }
 
@@ -110,7 +110,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         start: Vertex,
         interrupt: &Interrupt,
     ) -> Result<Result<Distances<u32>, QueryError>, Interrupted> {
-        if let Err(error) = Query::new(start, start).check(&self.graph) {
+        if let Err(error) = Ends::new(start, start).check(&self.graph) {
             return Ok(Err(error));
         }
         let mut moves = vec![None; node_count(&*self.graph)];
@@ -152,7 +152,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         let at = graph.vertex(start);
         observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: Cost::ZERO });
         (self.expanded, self.goal) = (0, goal);
-        self.status = if goal == Some(start) { Status::Found } else { Status::Searching };
+        self.status = if goal == Some(start) { SearchStatus::Found } else { SearchStatus::Searching };
     }
 
     /// Reaches vertices layer by layer, until the goal is reached, no vertex is left, or the observer pauses.
@@ -161,10 +161,10 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         let graph: &GridGraph<P> = graph;
         // No move leads to a vertex outside the map.
         let goal_at = goal.map_or(Vertex::new(-1, -1), |goal| graph.vertex(goal));
-        let mut found = *status == Status::Found;
+        let mut found = *status == SearchStatus::Found;
         while !found {
             let Some(&id) = reached.get(*expanded) else {
-                *status = Status::Unreachable;
+                *status = SearchStatus::Unreachable;
                 return;
             };
             let Some(node) = nodes.get(id) else { return };
@@ -203,7 +203,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
                 graph.for_each_successor(at, arrived_by, goal_at, reach);
             }
         }
-        *status = Status::Found;
+        *status = SearchStatus::Found;
     }
 }
 
@@ -223,23 +223,23 @@ impl Observer for Stops<'_> {
 }
 
 impl<P: Placement, G: Deref<Target = GridGraph<P>>> Planner for Wavefront<G> {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        self.status = Status::Unreachable;
-        if let Some((start, goal)) = query.ends(&self.graph)? {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        self.status = SearchStatus::Unreachable;
+        if let Some((start, goal)) = query.ids(&self.graph)? {
             self.begin_at(start, Some(goal), observer);
         }
         Ok(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if self.status == Status::Searching {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if self.status == SearchStatus::Searching {
             self.run(observer);
         }
         Ok(self.status)
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let has_begun = self.goal.is_some() && self.status != Status::Unreachable;
+        let has_begun = self.goal.is_some() && self.status != SearchStatus::Unreachable;
         let id = self.graph.id(at).filter(|&id| has_begun && self.nodes.get(id).is_some())?;
         // At other gaps it may have passed, but no path ends there.
         if self.goal != Some(id) && self.graph.is_closed_gap(at) && !ends_at(&*self.graph, at) {

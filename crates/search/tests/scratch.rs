@@ -12,7 +12,7 @@ use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, Placement, PlacementKind, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Outcome, Query};
+use mediant_search::{Answer, Ends};
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
@@ -38,26 +38,26 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 /// Queries between vertices all over a map.
-fn queries(grid: &Grid, placement: PlacementKind) -> Vec<Query> {
+fn queries(grid: &Grid, placement: PlacementKind) -> Vec<Ends> {
     let is_free = |at: Vertex| match placement {
         PlacementKind::Center => Centers::is_free(grid, at),
         PlacementKind::Corner => Corners::is_free(grid, at),
     };
     let all = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = all.filter(|&at| is_free(at)).step_by(311).collect();
-    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Ends::new(a, b))).collect()
 }
 
-fn check(setup: Setup, planner: &mut Planner, queries: &[Query]) {
+fn check(setup: Setup, planner: &mut Planner, queries: &[Ends]) {
     for &query in queries {
         planner.find(query).expect("both ends are free");
     }
     let mut found = 0;
     for &query in queries {
         let before = ALLOCATIONS.get();
-        let outcome = planner.find(query).expect("both ends are free");
+        let answer = planner.find(query).expect("both ends are free");
         let allocated = ALLOCATIONS.get() - before;
-        let expected = usize::from(matches!(outcome, Outcome::Found(_)));
+        let expected = usize::from(matches!(answer, Answer::Found(_)));
         assert_eq!(allocated, expected, "{setup}, {query:?}");
         found += expected;
     }

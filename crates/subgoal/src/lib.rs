@@ -20,7 +20,7 @@
 //! use std::sync::Arc;
 //! use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 //! use mediant_moves::K;
-//! use mediant_search::{Planner, Query};
+//! use mediant_search::{Ends, Planner};
 //! use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph};
 //!
 //! let map = AsciiMap::parse("
@@ -31,8 +31,8 @@
 //! let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 //! let graph = SubgoalGraph::new(&space, K::Any, Hierarchy::Contracted)?;
 //! let mut planner = SubgoalAStar::new(&space, &graph)?;
-//! let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
-//! let path = outcome.path().ok_or("there is a way")?;
+//! let answer = planner.solve(Ends::new((0, 0), (5, 3)))?;
+//! let path = answer.path().ok_or("there is a way")?;
 //! assert_eq!(path.waypoints(), [(0, 0), (1, 2), (5, 3)].map(Into::into));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

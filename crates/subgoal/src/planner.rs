@@ -5,7 +5,7 @@ use std::ops::Deref;
 use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_search::{
-    Guarantee, NodeEvent, Observer, Path, Planner, Query, QueryError, Status,
+    Ends, Guarantee, NodeEvent, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{HasFreeSpace, SearchTree},
 };
 
@@ -46,8 +46,8 @@ pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     /// Scratch memory: the arcs from the meeting point back to the start.
     arcs: Vec<PackedArc>,
     waypoints: Vec<Vertex>,
-    query: Option<Query>,
-    status: Status,
+    query: Option<Ends>,
+    status: SearchStatus,
     /// Whether `waypoints` are a path that was found without a search.
     is_direct: bool,
     /// The cost of the best path found, and the subgoal at which the searches meet on it.
@@ -86,7 +86,7 @@ where
             arcs: Vec::new(),
             waypoints: Vec::new(),
             query: None,
-            status: Status::default(),
+            status: SearchStatus::default(),
             is_direct: false,
             best: (Cost::MAX, None),
         })
@@ -99,13 +99,13 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = SubgoalGraph<P>>,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        (self.query, self.status) = (None, Status::Unreachable);
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        (self.query, self.status) = (None, SearchStatus::Unreachable);
         let space = self.space.free_space();
-        if query.ends(space)?.is_none() {
+        if query.ids(space)?.is_none() {
             return Ok(self.status);
         }
-        let Query { start, goal, .. } = query;
+        let Ends { start, goal, .. } = query;
         self.query = Some(query);
         self.is_direct = if start == goal {
             self.waypoints.clear();
@@ -115,7 +115,7 @@ where
             direct_path(space, self.graph.k, start, goal, &mut self.waypoints)
         };
         if self.is_direct {
-            self.status = Status::Found;
+            self.status = SearchStatus::Found;
             return Ok(self.status);
         }
         let Self { graph, scratch, query_edges, searches, .. } = self;
@@ -124,19 +124,19 @@ where
             graph.query_edges(space, scratch, at, edges);
         }
         self.best = begin(graph, searches, query_edges, ends, observer);
-        self.status = Status::Searching;
+        self.status = SearchStatus::Searching;
         Ok(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if let (Some(query), Status::Searching) = (self.query, self.status) {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if let (Some(query), SearchStatus::Searching) = (self.query, self.status) {
             self.status = self.search([query.start, query.goal], observer);
         }
         Ok(self.status)
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let Query { start, goal, .. } = self.query?;
+        let Ends { start, goal, .. } = self.query?;
         if at == goal && self.is_direct {
             return Some(Path::new(self.waypoints.clone()));
         }
@@ -173,7 +173,7 @@ where
 {
     /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path, or
     /// pauses.
-    fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> Status {
+    fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> SearchStatus {
         let Self { space, graph, searches, best: result, .. } = self;
         let (graph, space) = (&**graph, space.free_space());
         let mut best = *result;
@@ -181,14 +181,14 @@ where
             let [forward, backward] = [0, 1].map(|side| searches[side].least_f().unwrap_or(Cost::MAX));
             let least = forward.min(backward);
             if least >= best.0 {
-                break if best.1.is_some() { Status::Found } else { Status::Unreachable };
+                break if best.1.is_some() { SearchStatus::Found } else { SearchStatus::Unreachable };
             }
             // Each search has expanded all its nodes of a lesser f, so no path is cheaper.
             if observer.pauses(least) {
-                break Status::Searching;
+                break SearchStatus::Searching;
             }
             let side = usize::from(backward < forward);
-            let Some((f, id, g, swaps)) = searches[side].pop() else { break Status::Unreachable };
+            let Some((f, id, g, swaps)) = searches[side].pop() else { break SearchStatus::Unreachable };
             observer.percolated(swaps);
             let at = graph.subgoals.vertex(id);
             let before =

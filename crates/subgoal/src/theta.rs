@@ -8,7 +8,7 @@ use std::ops::Deref;
 use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    Guarantee, Observer, Path, Planner, Query, QueryError, Status,
+    Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{HasFreeSpace, SearchTree, push_waypoint},
 };
 
@@ -47,7 +47,7 @@ use crate::{arc::NONE, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// use std::{num::NonZeroU32, sync::Arc};
 /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Planner, Query};
+/// use mediant_search::{Ends, Planner};
 /// use mediant_subgoal::{Hierarchy, SubgoalGraph, SubgoalTheta};
 ///
 /// let map = AsciiMap::parse("
@@ -59,9 +59,9 @@ use crate::{arc::NONE, graph::SubgoalGraph, placement::SubgoalPlacement};
 /// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
 /// let levels = Hierarchy::Levels(NonZeroU32::MIN.saturating_add(1));
 /// let graph = SubgoalGraph::new(&space, FiniteK::N8, levels)?;
-/// let outcome = SubgoalTheta::new(&space, &graph)?.solve(Query::new((0, 1), (6, 2)))?;
+/// let answer = SubgoalTheta::new(&space, &graph)?.solve(Ends::new((0, 1), (6, 2)))?;
 /// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
-/// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
+/// assert_eq!(answer.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -75,8 +75,8 @@ pub struct SubgoalTheta<S, I, P: SubgoalPlacement> {
     query_edges: Vec<(u32, Cost)>,
     bends: Vec<Waypoint>,
     unpacking: Unpacking,
-    query: Option<Query>,
-    status: Status,
+    query: Option<Ends>,
+    status: SearchStatus,
     /// Where the path to the goal bends last, once it is found; [`NONE`] for a straight one.
     last: Option<u32>,
 }
@@ -114,7 +114,7 @@ where
             bends: Vec::new(),
             unpacking: Unpacking::default(),
             query: None,
-            status: Status::default(),
+            status: SearchStatus::default(),
             last: None,
         })
     }
@@ -126,17 +126,17 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = SubgoalGraph<P>>,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        (self.query, self.last, self.status) = (None, None, Status::Unreachable);
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        (self.query, self.last, self.status) = (None, None, SearchStatus::Unreachable);
         let Self { space, graph, scratch, tree, descent, query_edges, bends, unpacking, .. } = self;
         let (space, graph) = (space.free_space(), &**graph);
-        if query.ends(space)?.is_none() {
+        if query.ids(space)?.is_none() {
             return Ok(self.status);
         }
-        let Query { start, goal, .. } = query;
+        let Ends { start, goal, .. } = query;
         self.query = Some(query);
         if start == goal || may_join(space, start, goal) {
-            (self.last, self.status) = (Some(NONE), Status::Found);
+            (self.last, self.status) = (Some(NONE), SearchStatus::Found);
             return Ok(self.status);
         }
         graph.query_edges(space, scratch, goal, query_edges);
@@ -144,12 +144,12 @@ where
         graph.query_edges(space, scratch, start, query_edges);
         SubgoalThetaSearch { space, graph, tree, descent, bends, unpacking, observer, goal }
             .begin(start, query_edges);
-        self.status = Status::Searching;
+        self.status = SearchStatus::Searching;
         Ok(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if let (Some(Query { goal, .. }), Status::Searching) = (self.query, self.status) {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if let (Some(Ends { goal, .. }), SearchStatus::Searching) = (self.query, self.status) {
             let Self { space, graph, tree, descent, bends, unpacking, last, .. } = self;
             let (space, graph) = (space.free_space(), &**graph);
             let mut search =
@@ -160,7 +160,7 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let Query { start, goal, .. } = self.query?;
+        let Ends { start, goal, .. } = self.query?;
         if at == start {
             return Some(Path::new(vec![start]));
         }

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use mediant_grid::{Corners, FreeSpace, GridGraph, Interrupt, Interrupted, Placement, Vertex};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{
-    Anya, BlockJps, Counters, Hk, JumpError, Planner, Pruning, Query,
+    Anya, BlockJps, Counters, Ends, Hk, JumpError, Planner, Pruning,
     parts::{BlockFinder, count_work},
 };
 
@@ -41,7 +41,7 @@ impl Comparison {
 }
 
 /// Answers a query and counts its work; `None` if it cannot. It may be interrupted.
-pub type Counted<'r> = dyn FnMut(Query) -> Result<Option<Counters>, Interrupted> + 'r;
+pub type Counted<'r> = dyn FnMut(Ends) -> Result<Option<Counters>, Interrupted> + 'r;
 
 /// Compares a graph with an engine.
 pub type Compare<'c> = dyn FnMut(&mut Counted<'_>) -> Result<bool, Interrupted> + 'c;
@@ -86,7 +86,7 @@ pub(crate) fn with_jumps_or_anya(
 
 fn counted(
     planner: &mut impl Planner,
-    query: Query,
+    query: Ends,
     interrupt: &Interrupt,
 ) -> Result<Option<Counters>, Interrupted> {
     Ok(count_work(planner, query, interrupt)?.ok())
@@ -120,7 +120,7 @@ pub(crate) fn is_outdone<P: SubgoalPlacement>(
 }
 
 /// So many queries between connected vertices anywhere on the map, the same each time.
-fn queries<P: Placement>(space: &FreeSpace<P>, count: usize) -> impl Iterator<Item = Query> {
+fn queries<P: Placement>(space: &FreeSpace<P>, count: usize) -> impl Iterator<Item = Ends> {
     let (width, height) = P::vertices(space.grid());
     let mut state = 0x2545_F491_4F6C_DD1D_u64;
     let mut below = move |most: u32| {
@@ -129,6 +129,6 @@ fn queries<P: Placement>(space: &FreeSpace<P>, count: usize) -> impl Iterator<It
         ((state >> 33) % u64::from(most)) as i32
     };
     let mut vertex = move || Vertex::new(below(width), below(height));
-    let tries = (0..100 * count).map(move |_| Query::new(vertex(), vertex()));
+    let tries = (0..100 * count).map(move |_| Ends::new(vertex(), vertex()));
     tries.filter(|query| space.connected(query.start, query.goal)).take(count)
 }

@@ -14,7 +14,7 @@ use common::{GAPS, HIERARCHIES, graph, k, labels, levels, space};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Identity, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
-use mediant_search::{Outcome, Planner, Query};
+use mediant_search::{Answer, Ends, Planner};
 use mediant_subgoal::{
     Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta,
 };
@@ -44,22 +44,22 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-fn queries<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Query> {
+fn queries<P: SubgoalPlacement>(space: &FreeSpace<P>) -> Vec<Ends> {
     let vertices = (0..50).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(97).collect();
-    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Ends::new(a, b))).collect()
 }
 
 /// The most allocations of a query on a warm planner, without that of the path.
-fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Query]) -> usize {
+fn most_allocations(case: &str, mut planner: impl Planner, queries: &[Ends]) -> usize {
     for &query in queries {
         planner.solve(query).expect("both ends are free");
     }
     let (mut found, mut most) = (0, 0);
     for &query in queries {
         let before = ALLOCATIONS.get();
-        let outcome = planner.solve(query).expect("both ends are free");
-        let path = usize::from(matches!(outcome, Outcome::Found(_)));
+        let answer = planner.solve(query).expect("both ends are free");
+        let path = usize::from(matches!(answer, Answer::Found(_)));
         most = most.max(ALLOCATIONS.get() - before - path);
         found += path;
     }

@@ -1,7 +1,7 @@
 //! The answer to a query, and values that go out.
 
 use js_sys::{Int32Array, Object, Reflect};
-use mediant::{Answer, Guarantee, Motion, Outcome, Path, Rules, Status, Vertex};
+use mediant::{Answer, Guarantee, Motion, Path, Rules, Status, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::types::{JsAnswer, JsMotion};
@@ -36,24 +36,24 @@ thread_local! {
 
 /// The answer of an engine with this guarantee under these rules as an object. It is made key by key through
 /// setters, which take a fifth of the time of keys that are texts: a query can take microseconds.
-pub(crate) fn answer(outcome: &Outcome, (guarantee, rules): (Guarantee, Rules)) -> JsAnswer {
-    let (told, answer) = (Answer::new(outcome, guarantee), Object::new().unchecked_into::<JsAnswer>());
-    STATUSES.with(|statuses| answer.set_status(&statuses[told.status() as usize]));
-    if let Some(path) = told.path() {
-        answer.set_path(flat(path));
+pub(crate) fn told(answer: &Answer, (guarantee, rules): (Guarantee, Rules)) -> JsAnswer {
+    let object = Object::new().unchecked_into::<JsAnswer>();
+    STATUSES.with(|statuses| object.set_status(&statuses[answer.status() as usize]));
+    if let Some(path) = answer.path() {
+        object.set_path(flat(path));
     }
-    answer.set_distance(told.distance());
-    answer.set_lower_bound(told.lower_bound());
-    if let Some(bound) = told.any_angle_lower_bound(rules) {
-        answer.set_any_angle_lower_bound(bound);
+    object.set_distance(answer.distance(guarantee));
+    object.set_lower_bound(answer.lower_bound(guarantee));
+    if let Some(bound) = answer.any_angle_lower_bound(guarantee, rules) {
+        object.set_any_angle_lower_bound(bound);
     }
-    if let Some(limit) = told.stopped_by() {
-        answer.set_stopped_by(limit.name());
+    if let Some(limit) = answer.stopped_by() {
+        object.set_stopped_by(limit.name());
     }
-    if let Some(best) = told.best() {
-        answer.set_best(flat(best));
+    if let Some(best) = answer.best() {
+        object.set_best(flat(best));
     }
-    answer
+    object
 }
 
 /// Motion as an object with every key that it has.

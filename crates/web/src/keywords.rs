@@ -2,7 +2,7 @@
 
 use js_sys::Reflect;
 use mediant::{
-    Engine, Motion, Request,
+    Engine, Motion, Query,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
     errors::absent,
 };
@@ -60,14 +60,14 @@ impl Keywords {
         self.call.motion().map_err(call_error)
     }
 
-    /// The request for a path between points. Its time begins now.
-    pub(crate) fn request(&self, start: &Points, goal: &Points) -> Request {
+    /// The query for a path between points. Its time begins now.
+    pub(crate) fn query(&self, start: &Points, goal: &Points) -> Query {
         let mut limits = self.call.wishes().limits();
         if let Some(milliseconds) = self.call.wishes().timeout {
             let deadline = Deadline::after(milliseconds);
             limits = limits.deadline(move || deadline.is_over());
         }
-        self.call.wishes().request(start.as_slice(), goal.as_slice(), limits)
+        self.call.wishes().query(start.as_slice(), goal.as_slice(), limits)
     }
 }
 

@@ -7,12 +7,12 @@ use std::{
 
 use js_sys::{Float64Array, Int32Array};
 use mediant::{
-    Error, Exceptions, Guarantee, Outcome, Planner as Inner, Query, Space, Stopped, errors::QueryError,
+    Answer, Ends, Error, Exceptions, Guarantee, Planner as Inner, Space, Stopped, errors::QueryError,
 };
 use wasm_bindgen::prelude::*;
 
 use crate::{
-    answer::{answer, flat, object_of},
+    answer::{flat, object_of, told},
     arguments::{Points, flag, integer, object, point},
     errors::{argument, raised},
     goals::Goals,
@@ -42,13 +42,13 @@ pub struct Planner {
 /// A planner, with its last answer.
 struct State {
     inner: Inner,
-    last: Option<Outcome>,
+    last: Option<Answer>,
 }
 
 /// The last search of a planner: its space and its answer.
 pub(crate) struct Searched {
     pub(crate) space: Space,
-    pub(crate) answer: Option<Outcome>,
+    pub(crate) answer: Option<Answer>,
 }
 
 impl Planner {
@@ -80,16 +80,16 @@ impl Planner {
 
 impl State {
     /// The answer as an object; it is kept for traces.
-    fn answered(&mut self, outcome: Result<Outcome, QueryError>) -> Result<JsAnswer, JsValue> {
-        let outcome = outcome.map_err(raised)?;
+    fn answered(&mut self, answer: Result<Answer, QueryError>) -> Result<JsAnswer, JsValue> {
+        let answer = answer.map_err(raised)?;
         let rules = self.inner.index().setup().rules();
-        let object = answer(&outcome, (self.inner.guarantee(), rules));
-        self.last = Some(outcome);
+        let object = told(&answer, (self.inner.guarantee(), rules));
+        self.last = Some(answer);
         Ok(object)
     }
 
     /// Goes on by so many expansions.
-    fn proceed(&mut self, expansions: u64, trace: Option<&Trace>) -> Result<Option<Outcome>, JsValue> {
+    fn proceed(&mut self, expansions: u64, trace: Option<&Trace>) -> Result<Option<Answer>, JsValue> {
         let step = match trace {
             None => self.inner.step(expansions),
             Some(trace) => {
@@ -148,15 +148,15 @@ impl Planner {
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let trace = trace_of(trace)?;
         let mut state = self.idle()?;
-        let request = keywords.request(&start, &goal);
-        let outcome = match trace {
-            None => state.inner.find(request),
+        let query = keywords.query(&start, &goal);
+        let answer = match trace {
+            None => state.inner.find(query),
             Some(trace) => {
                 let mut recorder = trace.recorder(state.inner.index().space())?;
-                state.inner.find_observed(request, &mut *recorder)
+                state.inner.find_observed(query, &mut *recorder)
             }
         };
-        state.answered(outcome)
+        state.answered(answer)
     }
 
     /// Answers a query for which some cells count otherwise than on the map: as `find` does on the map with
@@ -183,18 +183,18 @@ impl Planner {
         let inner = &mut state.inner;
         let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
         memory::check("the search", vertices(inner.index().space().map()), bytes)?;
-        let (request, rules) = (keywords.request(&start, &goal), inner.index().setup().rules());
-        let mut other = match inner.except(&request, &exceptions) {
+        let (query, rules) = (keywords.query(&start, &goal), inner.index().setup().rules());
+        let mut other = match inner.except(&query, &exceptions) {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                let outcome = Outcome::Stopped(Stopped::before_search(by, start));
-                return Ok(answer(&outcome, (Guarantee::Suboptimal, rules)));
+                let answer = Answer::Stopped(Stopped::before_search(by, start));
+                return Ok(told(&answer, (Guarantee::Suboptimal, rules)));
             }
             other => other.map_err(raised)?,
         };
         let planner = other.as_mut().unwrap_or(inner);
-        let outcome = planner.find(request).map_err(raised)?;
-        Ok(answer(&outcome, (planner.guarantee(), rules)))
+        let answer = planner.find(query).map_err(raised)?;
+        Ok(told(&answer, (planner.guarantee(), rules)))
     }
 
     /// The length in cells of the path that `find` finds; `Infinity` if there is none. Hub labels measure
@@ -206,8 +206,8 @@ impl Planner {
         #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
     ) -> Result<f64, JsValue> {
-        let query = Query::new(point("start", start)?, point("goal", goal)?);
-        Ok(self.idle()?.inner.distance(query).map_err(raised)?.unwrap_or(f64::INFINITY))
+        let ends = Ends::new(point("start", start)?, point("goal", goal)?);
+        Ok(self.idle()?.inner.distance(ends).map_err(raised)?.unwrap_or(f64::INFINITY))
     }
 
     /// The lengths in cells of the paths to each of many goals, in their order; `Infinity` where none leads.
@@ -253,7 +253,7 @@ impl Planner {
     ) -> Result<(), JsValue> {
         let keywords = Keywords::read("wishes", wishes, WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
-        self.idle()?.inner.begin(keywords.request(&start, &goal)).map_err(raised)
+        self.idle()?.inner.begin(keywords.query(&start, &goal)).map_err(raised)
     }
 
     /// Continues the search by at most so many expansions. The answer once it is there, else undefined.
@@ -268,7 +268,7 @@ impl Planner {
         let (expansions, trace) = (integer("expansions", expansions, 0)?, trace_of(trace)?);
         let mut state = self.state()?;
         match state.proceed(expansions, trace.as_ref())? {
-            Some(outcome) => state.answered(Ok(outcome)).map(Into::into),
+            Some(answer) => state.answered(Ok(answer)).map(Into::into),
             None => Ok(JsValue::UNDEFINED),
         }
     }
@@ -283,8 +283,8 @@ impl Planner {
         let trace = trace_of(trace)?;
         let mut state = self.state()?;
         loop {
-            if let Some(outcome) = state.proceed(u64::MAX, trace.as_ref())? {
-                return state.answered(Ok(outcome));
+            if let Some(answer) = state.proceed(u64::MAX, trace.as_ref())? {
+                return state.answered(Ok(answer));
             }
         }
     }

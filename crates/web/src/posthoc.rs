@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use mediant::{
-    Query,
+    Ends,
     search::{Observer, Tracer},
 };
 use wasm_bindgen::prelude::*;
@@ -46,7 +46,7 @@ impl Trace {
         #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
     ) -> Result<String, JsValue> {
         let searched = object::<Planner>("planner", "Planner", planner)?.searched()?;
-        let query = Query::new(point("start", start)?, point("goal", goal)?);
+        let query = Ends::new(point("start", start)?, point("goal", goal)?);
         self.with_all(&searched.space, |events| {
             let placement = searched.space.motion().rules.placement();
             let write = || -> io::Result<Text> {

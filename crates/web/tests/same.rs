@@ -5,7 +5,7 @@
 //! one.
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, K, Map, Motion, Outcome, Query, Rules, Setup, errors::QueryError,
+    Answer, CornerRule, DiagonalGap, Engine, K, Map, Motion, Query, Rules, Setup, errors::QueryError,
 };
 use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
 #[cfg(target_arch = "wasm32")]
@@ -80,7 +80,7 @@ fn answer(setup: Setup, map: &Map, seed: u64, (digest, asked): (&mut Digest, &mu
         let (Some(start), Some(goal)) = (free(), free()) else { return };
         digest.add(format!("{setup} {seed} {start} {goal}").as_bytes());
         match planner.find_counted(Query::new(start, goal)) {
-            Ok((Outcome::Found(path), counters)) => {
+            Ok((Answer::Found(path), counters)) => {
                 let points = path.waypoints().iter().flat_map(|at| [at.x, at.y]);
                 points.for_each(|number| digest.add(&number.to_le_bytes()));
                 digest.add(&path.cost().to_bits().to_le_bytes());

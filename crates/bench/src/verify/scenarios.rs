@@ -5,7 +5,7 @@ use std::{io, path::Path};
 use mediant::{Engine, Error, Map, Motion, Planner, Setup};
 use mediant_formats::{Ground, MapFile, Scenario, scenario_tolerance};
 use mediant_moves::FiniteK;
-use mediant_search::Query;
+use mediant_search::Ends;
 use mediant_sets::{Manifest, progress, root};
 use rayon::prelude::*;
 
@@ -111,7 +111,7 @@ struct Grounds {
 
 impl Grounds {
     /// The cost of the answer to a query; `None` where there is no path.
-    fn cost(&mut self, query: Query) -> Result<Option<f64>, Error> {
+    fn cost(&mut self, query: Ends) -> Result<Option<f64>, Error> {
         let ground = if self.by_ground { self.file.ground(query.start.x, query.start.y) } else { None };
         let known = self.planners.iter().position(|(of, _)| *of == ground);
         let at = match known {
@@ -144,7 +144,7 @@ fn scenario_of(
         let optimal = reachable.then_some(instance.optimal);
         let tolerance = scenario_tolerance(instance.optimal);
         let what = || format!("{setup}, {} instance {index}", path.display());
-        let found = match grounds.cost(Query::new(instance.start, instance.goal)) {
+        let found = match grounds.cost(Ends::new(instance.start, instance.goal)) {
             Ok(found) => found,
             Err(Error::Query(_)) if other_map => {
                 tally.blocked += 1;

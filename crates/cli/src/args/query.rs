@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mediant::{Exceptions, PlacementKind, Query, Request, Vertex, call::Wishes};
+use mediant::{Ends, Exceptions, PlacementKind, Query, Vertex, call::Wishes};
 
 use super::value::{Place, parse_place};
 use crate::{
@@ -88,8 +88,8 @@ impl QueryArgs {
         Ok(asked)
     }
 
-    /// The request for the path of a query. Its deadline runs from now on.
-    pub(crate) fn request(&self, query: Query) -> Request {
+    /// The query for the path of a query. Its deadline runs from now on.
+    pub(crate) fn between(&self, ends: Ends) -> Query {
         let mut limits = self.wishes.limits();
         if let Some(millis) = self.wishes.timeout {
             let begin = Instant::now();
@@ -98,9 +98,9 @@ impl QueryArgs {
             limits = limits.deadline(move || begin.elapsed() >= span);
         }
         if self.has_several_ends() {
-            self.wishes.request(&self.from, &self.to, limits)
+            self.wishes.query(&self.from, &self.to, limits)
         } else {
-            self.wishes.request(&[query.start], &[query.goal], limits)
+            self.wishes.query(&[ends.start], &[ends.goal], limits)
         }
     }
 
@@ -175,17 +175,17 @@ mod tests {
 
     #[test]
     fn a_query_without_wishes_stays_a_query() {
-        let query = Query::new((1, 2), (3, 4));
+        let ends = Ends::new((1, 2), (3, 4));
         for options in ["", "--from 5,6 --to 7,8", "--every 2"] {
             let wishes = wishes(options);
-            assert_eq!(wishes.request(query).as_query(), Some(query), "{options}");
+            assert_eq!(wishes.between(ends).as_ends(), Some(ends), "{options}");
             assert_eq!(wishes.in_words(), [""; 0], "{options}");
         }
         for options in
             ["--tolerance 1", "--nearest", "--snap", "--max-cost 1", "--max-expansions 0", "--timeout 9"]
         {
             let wishes = wishes(options);
-            assert_eq!(wishes.request(query).as_query(), None, "{options}");
+            assert_eq!(wishes.between(ends).as_ends(), None, "{options}");
             assert_eq!(wishes.in_words().len(), 1, "{options}");
         }
     }
@@ -193,17 +193,17 @@ mod tests {
     #[test]
     fn several_ends_are_in_the_order_of_the_arguments() {
         let wishes = wishes("--from 5,6 --from 1,1 --to 7,8 --to 0,0 --to 9,9");
-        let request = wishes.request(Query::new((5, 6), (7, 8)));
+        let query = wishes.between(Ends::new((5, 6), (7, 8)));
         let at = |x, y| Vertex::new(x, y);
-        assert_eq!(request.starts(), [at(5, 6), at(1, 1)]);
-        assert_eq!(request.goals(), [at(7, 8), at(0, 0), at(9, 9)]);
+        assert_eq!(query.starts(), [at(5, 6), at(1, 1)]);
+        assert_eq!(query.goals(), [at(7, 8), at(0, 0), at(9, 9)]);
         assert_eq!(wishes.in_words(), ["from any of 2 starts to any of 3 goals"]);
     }
 
     #[test]
     fn a_deadline_that_no_clock_reaches_is_none() {
         let wishes = wishes("--timeout 1e300 --tolerance 1");
-        assert!(wishes.request(Query::new((0, 0), (1, 1))).as_query().is_none());
+        assert!(wishes.between(Ends::new((0, 0), (1, 1))).as_ends().is_none());
         assert_eq!(wishes.in_words()[0], "within 1 cell of the goal");
     }
 }

@@ -3,9 +3,7 @@
 use std::io::{self, Write};
 
 use anstyle::RgbColor;
-use mediant::{
-    Engine, FiniteK, K, Motion, Outcome, PlacementKind, Query, Rules, Setup, Vertex, files::Tiles,
-};
+use mediant::{Answer, Ends, Engine, FiniteK, K, Motion, PlacementKind, Rules, Setup, Vertex, files::Tiles};
 
 use crate::{
     args::DemoArgs,
@@ -45,15 +43,15 @@ struct Row {
 }
 
 /// Solves the demo's query in one setup; `None` if there is no path.
-fn solve(setup: Setup, map: &NamedMap, query: Query) -> Result<Option<Row>, Failure> {
+fn solve(setup: Setup, map: &NamedMap, query: Ends) -> Result<Option<Row>, Failure> {
     let (k, rules) = (setup.k(), setup.rules());
     let mut planner = setup.planner(&map.to_library())?;
     // The table compares with any-angle paths between corners; no bound to these is known for paths between
     // centers.
     let at_corners = rules.placement() == PlacementKind::Corner;
     let bound = planner.guarantee().bound(rules).filter(|_| at_corners);
-    let Measured { outcome, counters, nanos } = Measured::new(&mut planner, || query.into(), REPEAT);
-    let Ok(Outcome::Found(path)) = outcome else { return Ok(None) };
+    let Measured { answer, counters, nanos } = Measured::new(&mut planner, || query.into(), REPEAT);
+    let Ok(Answer::Found(path)) = answer else { return Ok(None) };
     let (cost, expanded) = (path.cost(), counters.expanded);
     Ok(Some(Row { rules, k, bound, cost, waypoints: path.into_waypoints(), expanded, nanos }))
 }
@@ -62,7 +60,7 @@ fn solve(setup: Setup, map: &NamedMap, query: Query) -> Result<Option<Row>, Fail
 pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> {
     let builtin = Builtin::of_name(&args.name)?;
     let map = NamedMap::bundled(builtin, Tiles::default())?;
-    let query = Query::new(builtin.start, builtin.goal);
+    let query = Ends::new(builtin.start, builtin.goal);
     let mut setups = Vec::new();
     for k in KS {
         setups.push(Setup::new(Engine::AStar, Motion::corners(FiniteK::new(k)?)));
@@ -80,10 +78,10 @@ pub(crate) fn demo(args: &DemoArgs, screen: &mut Screen) -> Result<(), Failure> 
 }
 
 /// Writes the map's name and size, and the query.
-fn title(builtin: &Builtin, map: &NamedMap, query: Query, screen: &mut Screen) -> io::Result<()> {
+fn title(builtin: &Builtin, map: &NamedMap, query: Ends, screen: &mut Screen) -> io::Result<()> {
     let name = screen.paint(BOLD, builtin.name);
     let (width, height) = (map.grid.width(), map.grid.height());
-    let Query { start, goal, .. } = query;
+    let Ends { start, goal, .. } = query;
     writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
 }
 
@@ -103,7 +101,7 @@ fn k_sign(k: K) -> String {
 }
 
 /// Draws the map with some of the paths, and says which is which.
-fn picture(map: &NamedMap, query: Query, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
+fn picture(map: &NamedMap, query: Ends, rows: &[Row], screen: &mut Screen) -> io::Result<()> {
     let mut canvas = Canvas::fit(&map.tiles(), map.theme, PlacementKind::Corner, screen);
     for row in rows {
         if let Some((stroke, ink)) = stroke(row) {

@@ -82,8 +82,8 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let finished = session.answer_all(&mut searchers, &run)?;
     drop(report);
     if let (Some(target), Some(item)) = (&args.draw, queries.iter().next()) {
-        let Searcher { map, planner, .. } = searchers.of(item.query.start);
-        let drawing = Drawing { map, setup, request: query.request(item.query) };
+        let Searcher { map, planner, .. } = searchers.of(item.ends.start);
+        let drawing = Drawing { map, setup, query: query.between(item.ends) };
         match target {
             None => drawing.on_screen(&finished.path, screen)?,
             Some(path) => drawing.to_file(path, planner, &finished.path)?,

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant::{
-    Planner, Request, Setup, Vertex,
+    Planner, Query, Setup, Vertex,
     search::{NodeEvent, Observer},
 };
 use mediant_formats::{Picture, PictureError};
@@ -18,7 +18,7 @@ use crate::{failure::Failure, map::NamedMap, terminal::screen::Screen, write::ex
 pub(crate) struct Drawing<'d> {
     pub(crate) map: &'d NamedMap,
     pub(crate) setup: Setup,
-    pub(crate) request: Request,
+    pub(crate) query: Query,
 }
 
 /// Checks, before anything is computed, that the name of a picture's file tells its format.
@@ -35,7 +35,7 @@ impl Drawing<'_> {
         let placement = self.setup.rules().placement();
         let mut canvas = Canvas::fit(&self.map.tiles(), self.map.theme, placement, screen);
         canvas.path(waypoints, Stroke::Solid, INKS.best);
-        canvas.ends(self.request.starts(), self.request.goals());
+        canvas.ends(self.query.starts(), self.query.goals());
         writeln!(screen)?;
         canvas.write(screen)
     }
@@ -49,15 +49,15 @@ impl Drawing<'_> {
     ) -> Result<(), Failure> {
         let mut searched = Searched::default();
         // An error of the query was printed already.
-        let _ = planner.find_observed(self.request.clone(), &mut searched);
+        let _ = planner.find_observed(self.query.clone(), &mut searched);
         let placement = self.setup.rules().placement();
         let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);
         // Where a path was found, its own ends count: those that were asked for may have been moved.
         picture = match (waypoints.first(), waypoints.last()) {
             (Some(&start), Some(&goal)) => picture.start(start).goal(goal),
-            _ => picture
-                .starts(self.request.starts().iter().copied())
-                .goals(self.request.goals().iter().copied()),
+            _ => {
+                picture.starts(self.query.starts().iter().copied()).goals(self.query.goals().iter().copied())
+            }
         };
         let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
         let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k());

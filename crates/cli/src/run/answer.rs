@@ -3,7 +3,7 @@
 use std::{fmt, time::Duration};
 
 use mediant::{
-    Choice, Engine, ErrorCode, Guarantee, Path, PlacementKind, Request, Rules, Setup, Stopped, Vertex,
+    Choice, Engine, ErrorCode, Guarantee, Path, PlacementKind, Query, Rules, Setup, Stopped, Vertex,
     errors::QueryError,
     options::{EngineOption, OptionValue},
     search::Counters,
@@ -45,11 +45,11 @@ pub(crate) struct RunHead<'r> {
 pub(crate) struct QueryRecord {
     pub(crate) item: Item,
     /// The query, with all ends, wishes and limits.
-    pub(crate) request: Request,
+    pub(crate) query: Query,
     /// The engine that searched in place of the run's, because cells count otherwise for the query.
     pub(crate) searched_by: Option<Engine>,
-    /// The outcome, or why the query cannot be answered.
-    pub(crate) outcome: Result<QueryOutcome, Unanswered>,
+    /// The answer, or why the query cannot be answered.
+    pub(crate) answer: Result<QueryAnswer, Unanswered>,
     pub(crate) counters: Counters,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     pub(crate) nanos: u64,
@@ -79,7 +79,7 @@ impl fmt::Display for Unanswered {
 
 /// How a query was answered.
 #[derive(Clone, Debug)]
-pub(crate) enum QueryOutcome {
+pub(crate) enum QueryAnswer {
     Found(Found),
     /// There is no path; this one leads to the nearest vertex that can be reached.
     Nearest(Path),
@@ -104,19 +104,19 @@ pub(crate) struct Found {
 impl QueryRecord {
     /// The path that was asked for, if it was found.
     pub(crate) const fn found(&self) -> Option<&Found> {
-        match &self.outcome {
-            Ok(QueryOutcome::Found(found)) => Some(found),
+        match &self.answer {
+            Ok(QueryAnswer::Found(found)) => Some(found),
             _ => None,
         }
     }
 
     /// The path, if there is one: that of a stopped search is the best so far.
     pub(crate) const fn path(&self) -> Option<&Path> {
-        match &self.outcome {
-            Ok(QueryOutcome::Found(found)) => found.path.as_ref(),
-            Ok(QueryOutcome::Nearest(path)) => Some(path),
-            Ok(QueryOutcome::Stopped(stopped)) => Some(&stopped.best),
-            Ok(QueryOutcome::Unreachable) | Err(_) => None,
+        match &self.answer {
+            Ok(QueryAnswer::Found(found)) => found.path.as_ref(),
+            Ok(QueryAnswer::Nearest(path)) => Some(path),
+            Ok(QueryAnswer::Stopped(stopped)) => Some(&stopped.best),
+            Ok(QueryAnswer::Unreachable) | Err(_) => None,
         }
     }
 
@@ -128,7 +128,7 @@ impl QueryRecord {
     /// The start and the goal: of a path that was found its ends, else those of the query.
     pub(crate) fn ends(&self) -> (Vertex, Vertex) {
         let found = self.found().and_then(|found| ends(found.path.as_ref()?));
-        found.unwrap_or((self.item.query.start, self.item.query.goal))
+        found.unwrap_or((self.item.ends.start, self.item.ends.goal))
     }
 }
 

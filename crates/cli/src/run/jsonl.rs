@@ -19,7 +19,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    answer::{Found, QueryOutcome, QueryRecord, RunHead},
+    answer::{Found, QueryAnswer, QueryRecord, RunHead},
     report::Report,
     summary::Summary,
 };
@@ -65,12 +65,12 @@ impl Report for Jsonl<'_> {
         self.flush()
     }
 
-    fn query(&mut self, answer: QueryRecord) -> io::Result<()> {
-        let mut line = QueryLine::from(&answer);
+    fn query(&mut self, record: QueryRecord) -> io::Result<()> {
+        let mut line = QueryLine::from(&record);
         if self.only_lengths {
             line.path = None;
         }
-        line.world = self.world.zip(answer.path()).map(|((frame, placement), path)| {
+        line.world = self.world.zip(record.path()).map(|((frame, placement), path)| {
             path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
         });
         self.line(&line)?;
@@ -341,31 +341,31 @@ struct QueryLine<'a> {
 }
 
 impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
-    fn from(answer: &'a QueryRecord) -> Self {
-        let QueryRecord { item, request, searched_by, outcome, counters, nanos } = answer;
-        let (found, path) = (answer.found(), answer.path());
-        let (start, goal) = answer.ends();
-        let has_wishes = request.as_query().is_none();
-        let stopped = match outcome {
-            Ok(QueryOutcome::Stopped(stopped)) => Some(stopped),
+    fn from(record: &'a QueryRecord) -> Self {
+        let QueryRecord { item, query, searched_by, answer, counters, nanos } = record;
+        let (found, path) = (record.found(), record.path());
+        let (start, goal) = record.ends();
+        let has_wishes = query.as_ends().is_none();
+        let stopped = match answer {
+            Ok(QueryAnswer::Stopped(stopped)) => Some(stopped),
             _ => None,
         };
         Self {
             index: item.index,
             start: pair(start),
             goal: pair(goal),
-            starts: has_wishes.then(|| pairs(request.starts())),
-            goals: has_wishes.then(|| pairs(request.goals())),
+            starts: has_wishes.then(|| pairs(query.starts())),
+            goals: has_wishes.then(|| pairs(query.goals())),
             searched_by: searched_by.map(Engine::name),
-            status: match outcome {
-                Ok(QueryOutcome::Found(_)) => Status::Found,
-                Ok(QueryOutcome::Nearest(_)) => Status::Nearest,
-                Ok(QueryOutcome::Unreachable) => Status::Unreachable,
-                Ok(QueryOutcome::Stopped(_)) => Status::Stopped,
+            status: match answer {
+                Ok(QueryAnswer::Found(_)) => Status::Found,
+                Ok(QueryAnswer::Nearest(_)) => Status::Nearest,
+                Ok(QueryAnswer::Unreachable) => Status::Unreachable,
+                Ok(QueryAnswer::Stopped(_)) => Status::Stopped,
                 Err(_) => Status::Error,
             },
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
-            cost: answer.cost(),
+            cost: record.cost(),
             path: Some(pairs(path.map_or(&[][..], Path::waypoints))),
             world: None,
             smoothness: path.map(Path::smoothness),
@@ -381,8 +381,8 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             scanned: counters.scanned,
             fallbacks: counters.fallbacks,
             nanos: *nanos,
-            error: outcome.as_ref().err().map(|error| &*error.text),
-            code: outcome.as_ref().err().map(|error| error.code.name()),
+            error: answer.as_ref().err().map(|error| &*error.text),
+            code: answer.as_ref().err().map(|error| error.code.name()),
         }
     }
 }

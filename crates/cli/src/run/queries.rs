@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant::{PlacementKind, Query, Vertex, grid::Grid, search::End};
+use mediant::{Ends, PlacementKind, Vertex, grid::Grid, search::End};
 use mediant_formats::{Instance, Scenario};
 
 use crate::{
@@ -20,15 +20,15 @@ pub(crate) struct Item {
     /// The number of the instance, counted from 0; 0 for a single query.
     pub(crate) index: usize,
     /// Its start and goal; of several the first.
-    pub(crate) query: Query,
+    pub(crate) ends: Ends,
     /// The length that the scenario gives, if it knows it: optimal for k = 3 at centers under `never`.
     pub(crate) reference: Option<f64>,
 }
 
 /// A single query, or some of a scenario's or of a list of pairs.
 pub(crate) enum Queries {
-    Single(Query),
-    Pairs { name: String, pairs: Vec<Query>, every: usize, limit: usize },
+    Single(Ends),
+    Pairs { name: String, pairs: Vec<Ends>, every: usize, limit: usize },
     Scenario { name: String, scenario: Scenario, every: usize, limit: usize },
 }
 
@@ -47,7 +47,7 @@ impl Queries {
             return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
         }
         let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {
-            (None, Some(&from), Some(&to)) => return Ok(Self::Single(Query::new(from, to))),
+            (None, Some(&from), Some(&to)) => return Ok(Self::Single(Ends::new(from, to))),
             (Some(path), ..) => path,
             (None, ..) if is_builtin(&args.map.map) => &args.map.map,
             (None, ..) => return Err(Failure::NoQueries),
@@ -84,27 +84,27 @@ impl Queries {
 
     /// The queries, in the order of the file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Item> {
-        let (single, pairs, instances, every, limit): (_, &[Query], &[Instance], _, _) = match self {
+        let (single, pairs, instances, every, limit): (_, &[Ends], &[Instance], _, _) = match self {
             Self::Single(query) => (Some(*query), &[], &[], 1, 0),
             Self::Pairs { pairs, every, limit, .. } => (None, pairs, &[], *every, *limit),
             Self::Scenario { scenario, every, limit, .. } => {
                 (None, &[], scenario.instances(), *every, *limit)
             }
         };
-        let single = single.into_iter().map(|query| Item { index: 0, query, reference: None });
+        let single = single.into_iter().map(|ends| Item { index: 0, ends, reference: None });
         let pairs = pairs.iter().enumerate().step_by(every).take(limit);
-        let pairs = pairs.map(|(index, &query)| Item { index, query, reference: None });
+        let pairs = pairs.map(|(index, &ends)| Item { index, ends, reference: None });
         let instances = instances.iter().enumerate().step_by(every).take(limit);
         single.chain(pairs).chain(instances.map(|(index, instance)| Item {
             index,
-            query: Query::new(instance.start, instance.goal),
+            ends: Ends::new(instance.start, instance.goal),
             reference: instance.known_optimal(),
         }))
     }
 }
 
 /// Reads a CSV of pairs: a line `x1,y1,x2,y2` for each query.
-fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<Vec<Query>, Failure> {
+fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<Vec<Ends>, Failure> {
     let bytes = bytes(path)?;
     let mut pairs = Vec::new();
     for (index, (line, text)) in lines(&bytes).enumerate() {
@@ -116,7 +116,7 @@ fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<V
         }
         let [start, goal] = parse_pair(text).map_err(wrong)?;
         let vertex = |place| map.vertex(placement, place).map_err(|error| wrong(error.to_string()));
-        pairs.push(Query::new(vertex(start)?, vertex(goal)?));
+        pairs.push(Ends::new(vertex(start)?, vertex(goal)?));
     }
     if pairs.is_empty() { Err(Failure::NoPairs { path: shown(path) }) } else { Ok(pairs) }
 }

@@ -1,4 +1,4 @@
-//! Query errors in words.
+//! Ends errors in words.
 
 use mediant::{PlacementKind, Vertex, errors::QueryError, grid::Grid};
 

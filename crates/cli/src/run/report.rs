@@ -16,7 +16,7 @@ pub(crate) trait Report {
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()>;
 
     /// Reports a query and its answer.
-    fn query(&mut self, answer: QueryRecord) -> io::Result<()>;
+    fn query(&mut self, record: QueryRecord) -> io::Result<()>;
 
     /// Reports the summary.
     fn end(&mut self, summary: &Summary) -> io::Result<()>;

@@ -63,9 +63,8 @@ impl Searchers {
             let any_angle = reference.map(|setup| setup.planner(&map.to_library())).transpose()?;
             Ok::<_, Failure>(Searcher { ground, map, space, index, choice, planner, any_angle })
         };
-        let stood_on = |ground: &Ground| {
-            queries.iter().any(|item| map.ground_at(placement, item.query.start) == *ground)
-        };
+        let stood_on =
+            |ground: &Ground| queries.iter().any(|item| map.ground_at(placement, item.ends.start) == *ground);
         let grounds: Vec<Ground> =
             Ground::ALL.into_iter().filter(|ground| args.grounds && stood_on(ground)).collect();
         let first = make(grounds.first().copied())?;

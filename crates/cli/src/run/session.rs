@@ -1,9 +1,9 @@
 //! Answers queries one after the other on one warm planner.
 
-use mediant::{Outcome, Path, Planner, Query, Vertex};
+use mediant::{Answer, Ends, Path, Planner, Query, Vertex};
 
 use super::{
-    answer::{Found, QueryOutcome, QueryRecord, RunHead, Unanswered, ends},
+    answer::{Found, QueryAnswer, QueryRecord, RunHead, Unanswered, ends},
     measure::Measured,
     queries::{Item, Queries},
     report::Report,
@@ -42,14 +42,14 @@ impl Session<'_> {
         let mut tally = Tally::new(&run.query.wishes);
         let (mut first_error, mut path) = (None, Vec::new());
         for item in self.queries.iter() {
-            let answer = self.answer(searchers.of(item.query.start), run, item)?;
-            tally.add(&answer);
-            if let Err(error) = &answer.outcome {
+            let record = self.answer(searchers.of(item.ends.start), run, item)?;
+            tally.add(&record);
+            if let Err(error) = &record.answer {
                 first_error.get_or_insert_with(|| (item.index, error.to_string()));
             }
             path.clear();
-            path.extend(answer.path().into_iter().flat_map(Path::waypoints));
-            self.report.query(answer)?;
+            path.extend(record.path().into_iter().flat_map(Path::waypoints));
+            self.report.query(record)?;
             self.progress.tick();
         }
         self.progress.clear();
@@ -67,44 +67,44 @@ impl Session<'_> {
     ) -> Result<QueryRecord, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
         let (grid, rules) = (&*map.grid, run.setup.rules());
-        let request = || run.query.request(item.query);
+        let query = || run.query.between(item.ends);
         if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =
-                Measured::distance(planner, item.query, run.repeat);
-            let outcome = match length {
+                Measured::distance(planner, item.ends, run.repeat);
+            let answer = match length {
                 Ok(Some(cost)) => {
-                    let Query { start, goal, .. } = item.query;
+                    let Ends { start, goal, .. } = item.ends;
                     let (straight, any_angle) = (start.distance(goal), shortest(any_angle, (start, goal)));
                     let found = Found::measured(cost, straight, run.guarantee, rules, any_angle);
-                    Ok(QueryOutcome::Found(found))
+                    Ok(QueryAnswer::Found(found))
                 }
-                Ok(None) => Ok(QueryOutcome::Unreachable),
+                Ok(None) => Ok(QueryAnswer::Unreachable),
                 Err(error) => Err(Unanswered::new(error, map, rules.placement())),
             };
-            return Ok(QueryRecord { item, request: request(), searched_by: None, outcome, counters, nanos });
+            return Ok(QueryRecord { item, query: query(), searched_by: None, answer, counters, nanos });
         }
         let exceptions = run.query.exceptions();
         let mut other = match &exceptions {
-            Some(exceptions) => planner.except(&request(), exceptions)?,
+            Some(exceptions) => planner.except(&query(), exceptions)?,
             None => None,
         };
         let searched_by = other.as_ref().map(|planner| planner.index().searched_by());
         let planner = other.as_mut().unwrap_or(planner);
-        let Measured { outcome, counters, nanos } = Measured::new(planner, request, run.repeat);
+        let Measured { answer, counters, nanos } = Measured::new(planner, query, run.repeat);
         if let Some(trace) = self.trace.take() {
-            trace.write((grid, rules.placement()), planner, (item.query, request()), &outcome)?;
+            trace.write((grid, rules.placement()), planner, (item.ends, query()), &answer)?;
         }
-        let outcome = match outcome {
-            Ok(Outcome::Found(path)) => {
+        let answer = match answer {
+            Ok(Answer::Found(path)) => {
                 let any_angle = ends(&path).and_then(|ends| shortest(any_angle, ends));
-                Ok(QueryOutcome::Found(Found::new(path, run.guarantee, rules, any_angle)))
+                Ok(QueryAnswer::Found(Found::new(path, run.guarantee, rules, any_angle)))
             }
-            Ok(Outcome::Nearest(path)) => Ok(QueryOutcome::Nearest(path)),
-            Ok(Outcome::Stopped(stopped)) => Ok(QueryOutcome::Stopped(stopped)),
-            Ok(_) => Ok(QueryOutcome::Unreachable),
+            Ok(Answer::Nearest(path)) => Ok(QueryAnswer::Nearest(path)),
+            Ok(Answer::Stopped(stopped)) => Ok(QueryAnswer::Stopped(stopped)),
+            Ok(_) => Ok(QueryAnswer::Unreachable),
             Err(error) => Err(Unanswered::new(error, map, rules.placement())),
         };
-        Ok(QueryRecord { item, request: request(), searched_by, outcome, counters, nanos })
+        Ok(QueryRecord { item, query: query(), searched_by, answer, counters, nanos })
     }
 }
 

@@ -4,7 +4,7 @@ use mediant::{Path, call::Wishes};
 use mediant_formats::scenario_tolerance;
 use serde::Serialize;
 
-use super::answer::{Found, QueryOutcome, QueryRecord};
+use super::answer::{Found, QueryAnswer, QueryRecord};
 
 /// The sums and means of a run: times and counts of the answered queries, costs of those whose path was
 /// found.
@@ -107,20 +107,20 @@ impl Tally {
     }
 
     /// Adds an answer.
-    pub(crate) fn add(&mut self, answer: &QueryRecord) {
-        let found = answer.found();
-        match &answer.outcome {
+    pub(crate) fn add(&mut self, record: &QueryRecord) {
+        let found = record.found();
+        match &record.answer {
             Err(_) => {
                 self.errors += 1;
                 return;
             }
-            Ok(QueryOutcome::Found(_)) => self.found += 1,
-            Ok(QueryOutcome::Unreachable) => self.unreachable += 1,
-            Ok(QueryOutcome::Nearest(_)) => *self.nearest.get_or_insert(0) += 1,
-            Ok(QueryOutcome::Stopped(_)) => *self.stopped.get_or_insert(0) += 1,
+            Ok(QueryAnswer::Found(_)) => self.found += 1,
+            Ok(QueryAnswer::Unreachable) => self.unreachable += 1,
+            Ok(QueryAnswer::Nearest(_)) => *self.nearest.get_or_insert(0) += 1,
+            Ok(QueryAnswer::Stopped(_)) => *self.stopped.get_or_insert(0) += 1,
         }
-        let (index, counters) = (answer.item.index, &answer.counters);
-        self.nanos.push(answer.nanos);
+        let (index, counters) = (record.item.index, &record.counters);
+        self.nanos.push(record.nanos);
         self.expanded += counters.expanded;
         self.generated += counters.generated;
         self.percolations += counters.percolations;
@@ -128,12 +128,12 @@ impl Tally {
         self.scanned += counters.scanned;
         self.fallbacks += counters.fallbacks;
         self.made += u64::from(found.is_some_and(|found| found.path.is_some()));
-        self.smoothness += answer.path().filter(|_| found.is_some()).map_or(0.0, Path::smoothness);
+        self.smoothness += record.path().filter(|_| found.is_some()).map_or(0.0, Path::smoothness);
         let cost = found.map_or(0.0, |found| found.cost);
         self.cost += cost;
         self.bound.add(index, found.map(Found::bound));
         self.ratio.add(index, found.and_then(Found::ratio));
-        if let Some(reference) = answer.item.reference.filter(|_| is_comparable(answer)) {
+        if let Some(reference) = record.item.reference.filter(|_| is_comparable(record)) {
             self.compare(index, cost, reference);
         }
     }
@@ -191,10 +191,10 @@ impl Tally {
 }
 
 /// Whether an answer is one to the scenario's own query: a path between its ends, or that there is none.
-fn is_comparable(answer: &QueryRecord) -> bool {
-    let query = answer.item.query;
-    matches!(answer.outcome, Ok(QueryOutcome::Found(_) | QueryOutcome::Unreachable))
-        && answer.ends() == (query.start, query.goal)
+fn is_comparable(record: &QueryRecord) -> bool {
+    let ends = record.item.ends;
+    matches!(record.answer, Ok(QueryAnswer::Found(_) | QueryAnswer::Unreachable))
+        && record.ends() == (ends.start, ends.goal)
 }
 
 /// Sums up ratios.
@@ -235,18 +235,18 @@ fn median(sorted: &[u64]) -> u64 {
 #[cfg(test)]
 mod tests {
     use mediant::Vertex;
-    use mediant::{Query, search::Counters};
+    use mediant::{Ends, search::Counters};
 
     use super::*;
     use crate::run::queries::Item;
 
     /// The answer with a path of this length, right and then down; without one for `None`.
     fn answer(index: usize, cost: Option<i32>, reference: f64, nanos: u64) -> QueryRecord {
-        let ends = Query::new((0, 0), (cost.unwrap_or(1) - 1, 1));
-        let outcome = cost.map_or(QueryOutcome::Unreachable, |cost| {
+        let ends = Ends::new((0, 0), (cost.unwrap_or(1) - 1, 1));
+        let answer = cost.map_or(QueryAnswer::Unreachable, |cost| {
             let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
             let cost = path.cost();
-            QueryOutcome::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
+            QueryAnswer::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
         });
         let counters = Counters {
             expanded: 10,
@@ -256,8 +256,8 @@ mod tests {
             scanned: 50,
             fallbacks: 60,
         };
-        let item = Item { index, query: ends, reference: Some(reference) };
-        QueryRecord { item, request: ends.into(), searched_by: None, outcome: Ok(outcome), counters, nanos }
+        let item = Item { index, ends, reference: Some(reference) };
+        QueryRecord { item, query: ends.into(), searched_by: None, answer: Ok(answer), counters, nanos }
     }
 
     #[test]
@@ -268,7 +268,7 @@ mod tests {
         tally.add(&answer(2, None, 0.0, 3));
         tally.add(&answer(3, Some(30_000), 30_000.2, 100));
         tally.add(&QueryRecord {
-            outcome: Err(crate::run::answer::Unanswered {
+            answer: Err(crate::run::answer::Unanswered {
                 text: "an end is blocked".to_owned(),
                 code: mediant::ErrorCode::GoalBlocked,
             }),
@@ -290,11 +290,11 @@ mod tests {
         let mut tally = Tally::default();
         assert_eq!((tally.bound.finish(), tally.ratio.finish()), (None, None));
         let with = |index, lower_bound, any_angle| {
-            let mut answer = answer(index, Some(3), 3.0, 1);
-            if let Ok(QueryOutcome::Found(found)) = &mut answer.outcome {
+            let mut record = answer(index, Some(3), 3.0, 1);
+            if let Ok(QueryAnswer::Found(found)) = &mut record.answer {
                 (found.lower_bound, found.any_angle) = (lower_bound, any_angle);
             }
-            answer
+            record
         };
         for (index, lower_bound) in [(0, 3.0), (2, 2.0), (4, 2.0), (6, 2.5)] {
             tally.add(&with(index, lower_bound, None));

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use mediant::{Engine, Limit, Path, PlacementKind, Stopped, Vertex, files::WorldFrame, options::OptionValue};
 
 use super::{
-    answer::{Found, QueryOutcome, QueryRecord, RunHead},
+    answer::{Found, QueryAnswer, QueryRecord, RunHead},
     report::{Report, by_auto, falls_back, k_in_words},
     summary::{Ratios, References, Summary},
 };
@@ -95,7 +95,7 @@ impl<'s> TableReport<'s> {
         let mut gap = "\n";
         // The error of a single query goes to stderr.
         for row in self.rows.iter().filter(|_| few && self.queries > 1) {
-            if let Err(error) = &row.outcome {
+            if let Err(error) = &row.answer {
                 writeln!(self.screen, "{gap}  {}: {error}", row.item.index)?;
                 gap = "";
             }
@@ -114,12 +114,12 @@ impl<'s> TableReport<'s> {
     fn answer_cells(&self, row: &QueryRecord) -> Vec<String> {
         let (start, goal) = row.ends();
         let mut cells = vec![row.item.index.to_string(), vertex(start), vertex(goal)];
-        let (answer, cost) = match &row.outcome {
+        let (answer, cost) = match &row.answer {
             Err(_) => ("error", None),
-            Ok(QueryOutcome::Unreachable) => ("unreachable", None),
-            Ok(QueryOutcome::Found(Found { cost, .. })) => ("found", Some(format!("{cost:.4}"))),
-            Ok(QueryOutcome::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
-            Ok(QueryOutcome::Stopped(Stopped { lower_bound, .. })) => {
+            Ok(QueryAnswer::Unreachable) => ("unreachable", None),
+            Ok(QueryAnswer::Found(Found { cost, .. })) => ("found", Some(format!("{cost:.4}"))),
+            Ok(QueryAnswer::Nearest(path)) => ("nearest", Some(format!("{:.4}", path.cost()))),
+            Ok(QueryAnswer::Stopped(Stopped { lower_bound, .. })) => {
                 ("stopped", Some(format!("≥ {lower_bound:.4}")))
             }
         };
@@ -132,7 +132,7 @@ impl<'s> TableReport<'s> {
             let reference = row.item.reference;
             cells.push(reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
         }
-        if row.outcome.is_err() {
+        if row.answer.is_err() {
             return cells;
         }
         if self.has_waypoints() {
@@ -170,16 +170,16 @@ impl<'s> TableReport<'s> {
                 writeln!(self.screen, "{line}")?;
             }
         }
-        match &row.outcome {
-            Ok(QueryOutcome::Found(found)) => certificate(self.screen, found, self.any_angle),
-            Ok(QueryOutcome::Nearest(_)) => {
+        match &row.answer {
+            Ok(QueryAnswer::Found(found)) => certificate(self.screen, found, self.any_angle),
+            Ok(QueryAnswer::Nearest(_)) => {
                 writeln!(
                     self.screen,
                     "  no way leads to the goal: the path ends at the nearest reachable vertex"
                 )
             }
-            Ok(QueryOutcome::Stopped(stopped)) => stop(self.screen, stopped),
-            Ok(QueryOutcome::Unreachable) | Err(_) => Ok(()),
+            Ok(QueryAnswer::Stopped(stopped)) => stop(self.screen, stopped),
+            Ok(QueryAnswer::Unreachable) | Err(_) => Ok(()),
         }
     }
 
@@ -269,10 +269,10 @@ impl Report for TableReport<'_> {
         writeln!(self.screen)
     }
 
-    fn query(&mut self, answer: QueryRecord) -> io::Result<()> {
-        let is_error = answer.outcome.is_err();
+    fn query(&mut self, record: QueryRecord) -> io::Result<()> {
+        let is_error = record.answer.is_err();
         if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
-            self.rows.push(answer);
+            self.rows.push(record);
         } else if is_error {
             self.more_errors += 1;
         }
@@ -369,8 +369,8 @@ fn vertex(at: Vertex) -> String {
 
 /// The row of a query that could not be answered, if only those have rows.
 fn error_cells(row: &QueryRecord) -> Vec<String> {
-    let error = row.outcome.as_ref().err().map(|error| error.text.clone()).unwrap_or_default();
-    vec![row.item.index.to_string(), vertex(row.item.query.start), vertex(row.item.query.goal), error]
+    let error = row.answer.as_ref().err().map(|error| error.text.clone()).unwrap_or_default();
+    vec![row.item.index.to_string(), vertex(row.item.ends.start), vertex(row.item.ends.goal), error]
 }
 
 /// Writes the certificate of a path, and how much longer than the path of `any_angle` it is.

@@ -2,9 +2,7 @@
 
 use std::{io, path};
 
-use mediant::{
-    Outcome, PlacementKind, Planner, Query, Request, errors::QueryError, grid::Grid, search::Tracer,
-};
+use mediant::{Answer, Ends, PlacementKind, Planner, Query, errors::QueryError, grid::Grid, search::Tracer};
 use mediant_formats::NewFile;
 
 use crate::{failure::Failure, write::write_file};
@@ -18,16 +16,16 @@ impl TraceFile<'_> {
         self,
         (grid, placement): (&Grid, PlacementKind),
         planner: &mut Planner,
-        (query, request): (Query, Request),
-        answer: &Result<Outcome, QueryError>,
+        (ends, query): (Ends, Query),
+        answer: &Result<Answer, QueryError>,
     ) -> Result<(), Failure> {
         let write = |file: &mut NewFile| -> io::Result<()> {
             let mut tracer = Tracer::new(file, grid, placement)?;
-            if let Ok(outcome) = answer {
-                tracer.begin(query, Some(outcome));
-                // The same request gives the same answer.
-                _ = planner.find_observed(request, &mut tracer);
-                tracer.end(Some(outcome));
+            if let Ok(answer) = answer {
+                tracer.begin(ends, Some(answer));
+                // The same query gives the same answer.
+                _ = planner.find_observed(query, &mut tracer);
+                tracer.end(Some(answer));
             }
             tracer.finish().map(drop)
         };

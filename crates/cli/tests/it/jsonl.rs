@@ -12,7 +12,7 @@ use std::{
 use mediant_formats::{MapFile, Scenario};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules};
 use mediant_moves::FiniteK;
-use mediant_search::{AStar, Counters, Hk, Path, Planner, Query};
+use mediant_search::{AStar, Counters, Ends, Hk, Path, Planner};
 use serde_json::Value;
 
 use crate::common::{Files, Ran, bundled, mediant, run};
@@ -244,15 +244,15 @@ fn library<P: Placement>(
     let mut planner = AStar::new(&grid_graph, Hk);
     let mut solve = |query| {
         let mut counters = Counters::default();
-        let outcome = planner.solve_observed(query, &mut counters).expect("free ends");
+        let answer = planner.solve_observed(query, &mut counters).expect("free ends");
         (
-            outcome.path().map(|path| nanocells(path.cost())),
+            answer.path().map(|path| nanocells(path.cost())),
             counters.expanded,
             counters.generated,
             counters.percolations,
         )
     };
-    scenario.instances().iter().map(|instance| solve(Query::new(instance.start, instance.goal))).collect()
+    scenario.instances().iter().map(|instance| solve(Ends::new(instance.start, instance.goal))).collect()
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::{
 use mediant_grid::{Centers, Change, GridGraph, Identity, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    AStar, Guarantee, Heuristic, Observer, Path, Planner, Query, QueryError, Status,
+    AStar, Ends, Guarantee, Heuristic, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{NodeStore, Part, SearchTree},
 };
 
@@ -45,7 +45,7 @@ pub struct ChpaStar<G, I, H1, H2> {
     path: Vec<Vertex>,
     /// The cost of that path.
     length: Cost,
-    query: Query,
+    query: Ends,
     phase: Phase,
 }
 
@@ -53,7 +53,7 @@ pub struct ChpaStar<G, I, H1, H2> {
 #[derive(Clone, Copy, Debug)]
 enum Phase {
     /// Nothing: no search was begun, or it is over.
-    Over(Status),
+    Over(SearchStatus),
     /// Phase 1: it searches a path over segments.
     Segments,
     /// Phase 2: it extends the path to the next checkpoint.
@@ -129,8 +129,8 @@ where
             checkpoints: Vec::new(),
             path: Vec::new(),
             length: Cost::ZERO,
-            query: Query::new((0, 0), (0, 0)),
-            phase: Phase::Over(Status::Unreachable),
+            query: Ends::new((0, 0), (0, 0)),
+            phase: Phase::Over(SearchStatus::Unreachable),
             grid_graph,
         })
     }
@@ -179,10 +179,10 @@ where
     H1: Heuristic,
     H2: Heuristic,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        self.phase = Phase::Over(Status::Unreachable);
-        if query.ends(&self.grid_graph)?.is_none() {
-            return Ok(Status::Unreachable);
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        self.phase = Phase::Over(SearchStatus::Unreachable);
+        if query.ids(&self.grid_graph)?.is_none() {
+            return Ok(SearchStatus::Unreachable);
         }
         self.path.clear();
         self.path.push(query.start);
@@ -190,37 +190,37 @@ where
         self.query = query;
         self.search(observer).begin();
         self.phase = Phase::Segments;
-        Ok(Status::Searching)
+        Ok(SearchStatus::Searching)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if let Phase::Segments = self.phase {
             let status = self.search(observer).run();
-            if status == Status::Searching {
+            if status == SearchStatus::Searching {
                 return Ok(status);
             }
-            self.phase = Phase::Over(Status::Unreachable);
-            self.plan(status == Status::Found, observer)?;
+            self.phase = Phase::Over(SearchStatus::Unreachable);
+            self.plan(status == SearchStatus::Found, observer)?;
             self.phase = Phase::Cells(Leg { next: 0, skip: 1, has_begun: false });
         }
         while let Phase::Cells(leg) = self.phase {
             let phase = self.extend(leg, observer);
-            self.phase = *phase.as_ref().unwrap_or(&Phase::Over(Status::Unreachable));
+            self.phase = *phase.as_ref().unwrap_or(&Phase::Over(SearchStatus::Unreachable));
             phase?;
             if let Phase::Cells(Leg { has_begun: true, .. }) = self.phase {
-                return Ok(Status::Searching);
+                return Ok(SearchStatus::Searching);
             }
         }
         Ok(match self.phase {
             Phase::Over(status) => status,
-            Phase::Segments | Phase::Cells(_) => Status::Searching,
+            Phase::Segments | Phase::Cells(_) => SearchStatus::Searching,
         })
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         let length = match self.phase {
-            Phase::Over(Status::Found) if at == self.query.goal => self.path.len(),
-            Phase::Over(Status::Unreachable) => return None,
+            Phase::Over(SearchStatus::Found) if at == self.query.goal => self.path.len(),
+            Phase::Over(SearchStatus::Unreachable) => return None,
             _ => 1 + self.path.iter().position(|&vertex| vertex == at)?,
         };
         Some(path_along(&self.path[..length]))
@@ -275,7 +275,7 @@ where
         let Self { grid_graph, cell_search, checkpoints, path, length, fallback, .. } = self;
         let Leg { next, skip, has_begun } = leg;
         let (Some(&at), Some(&to)) = (path.last(), checkpoints.get(next)) else {
-            return Ok(Phase::Over(Status::Found));
+            return Ok(Phase::Over(SearchStatus::Found));
         };
         let last = checkpoints.len() - 1;
         if !has_begun {
@@ -285,13 +285,13 @@ where
                 }
                 FallbackPolicy::Complete { .. } | FallbackPolicy::Paper => Cost::MAX,
             };
-            cell_search.begin_within(Query::new(at, to), limit, observer)?;
+            cell_search.begin_within(Ends::new(at, to), limit, observer)?;
         }
         // Whether this leg becomes part of the path is not known yet.
         let status = cell_search.proceed(&mut Part::pausing(observer, *length))?;
         Ok(match (status, *fallback) {
-            (Status::Searching, _) => Phase::Cells(Leg { has_begun: true, ..leg }),
-            (Status::Found, _) => {
+            (SearchStatus::Searching, _) => Phase::Cells(Leg { has_begun: true, ..leg }),
+            (SearchStatus::Found, _) => {
                 let known = path.len();
                 cell_search.extend_to(path, to);
                 let costs = grid_graph.costs();
@@ -301,13 +301,13 @@ where
                 }
                 Phase::Cells(Leg { next: next + 1, skip: 1, has_begun: false })
             }
-            (Status::Unreachable, FallbackPolicy::Paper) => {
+            (SearchStatus::Unreachable, FallbackPolicy::Paper) => {
                 return Err(QueryError::GaveUp { why: "a checkpoint cannot be reached" });
             }
-            (Status::Unreachable, FallbackPolicy::Complete { .. }) if next == last => {
-                Phase::Over(Status::Unreachable)
+            (SearchStatus::Unreachable, FallbackPolicy::Complete { .. }) if next == last => {
+                Phase::Over(SearchStatus::Unreachable)
             }
-            (Status::Unreachable, FallbackPolicy::Complete { .. }) => {
+            (SearchStatus::Unreachable, FallbackPolicy::Complete { .. }) => {
                 observer.fell_back();
                 Phase::Cells(Leg { next: (next + skip).min(last), skip: 2 * skip, has_begun: false })
             }

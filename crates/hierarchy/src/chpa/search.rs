@@ -4,7 +4,7 @@ use std::iter::successors;
 
 use mediant_grid::{Centers, GridGraph};
 use mediant_moves::Cost;
-use mediant_search::{Heuristic, NodeEvent, Observer, Query, Status, parts::SearchTree};
+use mediant_search::{Ends, Heuristic, NodeEvent, Observer, SearchStatus, parts::SearchTree};
 
 use super::segments::SegmentGraph;
 
@@ -14,7 +14,7 @@ pub(crate) struct SegmentSearch<'s, H, O> {
     pub(crate) graph: &'s SegmentGraph,
     pub(crate) heuristic: H,
     pub(crate) tree: &'s mut SearchTree,
-    pub(crate) query: Query,
+    pub(crate) query: Ends,
     pub(crate) observer: &'s mut O,
 }
 
@@ -31,19 +31,19 @@ impl<H: Heuristic, O: Observer> SegmentSearch<'_, H, O> {
     }
 
     /// Expands segments until the goal's is the best open one, none is open, or the observer pauses.
-    pub(crate) fn run(&mut self) -> Status {
+    pub(crate) fn run(&mut self) -> SearchStatus {
         let Self { grid_graph, graph, heuristic, tree, observer, .. } = self;
         let goal = graph.segment_at(self.query.goal);
         let goal_at = graph.position(goal);
         loop {
             // Costs in segments say nothing of the cost of a path.
             if tree.best().is_some_and(|(_, id)| id != goal) && observer.pauses(Cost::ZERO) {
-                return Status::Searching;
+                return SearchStatus::Searching;
             }
-            let Some((f, id, g, swaps)) = tree.pop() else { return Status::Unreachable };
+            let Some((f, id, g, swaps)) = tree.pop() else { return SearchStatus::Unreachable };
             observer.percolated(swaps);
             if id == goal {
-                return Status::Found;
+                return SearchStatus::Found;
             }
             let parent = tree.parent(id).map(|(parent, ())| graph.center(parent));
             observer.expanded(NodeEvent { at: graph.center(id), parent, g, f });

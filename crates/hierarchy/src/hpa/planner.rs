@@ -5,7 +5,7 @@ use std::ops::{Deref, DerefMut};
 use mediant_grid::{Centers, Change, GridGraph, Identity, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    Guarantee, Observer, Path, Planner, Query, QueryError, Status,
+    Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{Part, SearchTree},
 };
 
@@ -160,12 +160,12 @@ where
     G: Deref<Target = GridGraph<Centers>>,
     I: Deref<Target = ClusterGraph>,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.phase = Phase::None;
-        if query.ends(&self.grid_graph)?.is_none() {
-            return Ok(Status::Unreachable);
+        if query.ids(&self.grid_graph)?.is_none() {
+            return Ok(SearchStatus::Unreachable);
         }
-        let Query { start, goal, .. } = query;
+        let Ends { start, goal, .. } = query;
         // A free path that costs h_k is the best that straightening can find: no search is needed.
         let elbow = match () {
             () if start == goal => Some(goal),
@@ -176,7 +176,7 @@ where
             self.cells.clear();
             self.cells.extend([start, elbow, goal]);
             self.phase = Phase::Found { goal, is_direct: true };
-            return Ok(Status::Found);
+            return Ok(SearchStatus::Found);
         }
         let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
@@ -186,21 +186,21 @@ where
         Ok(self.search(query, true, observer))
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         let query = match self.phase {
-            Phase::None => return Ok(Status::Unreachable),
-            Phase::Found { .. } => return Ok(Status::Found),
+            Phase::None => return Ok(SearchStatus::Unreachable),
+            Phase::Found { .. } => return Ok(SearchStatus::Found),
             Phase::Search(query) => query,
         };
         match self.search(query, false, observer) {
-            Status::Searching => Ok(Status::Searching),
-            Status::Unreachable => Err(DAMAGED),
-            Status::Found => {
+            SearchStatus::Searching => Ok(SearchStatus::Searching),
+            SearchStatus::Unreachable => Err(DAMAGED),
+            SearchStatus::Found => {
                 let level = &self.index.levels[query.top];
                 trace(level, &self.tree, query, level.goal_id(), query.goal, &mut self.abstract_path);
                 self.refine_all(query.top, &mut Part::new(observer)).ok_or(DAMAGED)?;
                 self.phase = Phase::Found { goal: query.goal, is_direct: false };
-                Ok(Status::Found)
+                Ok(SearchStatus::Found)
             }
         }
     }
@@ -260,7 +260,7 @@ where
 {
     /// Finds the costs from start and goal to the nodes of their clusters, on the levels up to `top`. Returns
     /// the cost from one to the other within a cluster of the lowest level.
-    fn insert(&mut self, query: Query, top: usize, observer: &mut impl Observer) -> FixedCost {
+    fn insert(&mut self, query: Ends, top: usize, observer: &mut impl Observer) -> FixedCost {
         let direct = self.insert_lowest(0, query.start, Some(query.goal), observer);
         self.insert_lowest(1, query.goal, None, observer);
         let Self { grid_graph, index, tree, endpoint_costs, .. } = self;
@@ -313,7 +313,7 @@ where
     }
 
     /// Begins or continues the search of the abstract path.
-    fn search<O: Observer>(&mut self, query: AbstractQuery, begins: bool, observer: &mut O) -> Status {
+    fn search<O: Observer>(&mut self, query: AbstractQuery, begins: bool, observer: &mut O) -> SearchStatus {
         let Self { index, tree, endpoint_costs, .. } = self;
         let AbstractQuery { start, goal, top, direct } = query;
         let level = &index.levels[top];
@@ -326,7 +326,7 @@ where
         let mut search = HpaSearch { level, bounds: Bounds::ALL, tree, estimate, observer };
         if begins {
             search.begin(from, to);
-            return Status::Searching;
+            return SearchStatus::Searching;
         }
         search.run(to)
     }

@@ -3,7 +3,7 @@
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
 use mediant_search::{
-    NodeEvent, Observer, Status,
+    NodeEvent, Observer, SearchStatus,
     parts::{Part, SearchTree},
 };
 
@@ -56,7 +56,7 @@ pub(crate) fn search(
 ) -> bool {
     let mut search = HpaSearch { level, bounds, tree, estimate, observer: &mut Part::new(observer) };
     search.begin(start, goal);
-    search.run(goal) == Status::Found
+    search.run(goal) == SearchStatus::Found
 }
 
 /// A search on the nodes of one level, within bounds.
@@ -81,18 +81,18 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    pub(crate) fn run(&mut self, goal: Option<Goal<'_>>) -> Status {
+    pub(crate) fn run(&mut self, goal: Option<Goal<'_>>) -> SearchStatus {
         let level = self.level;
         loop {
             if let Some((f, _)) = self.tree.best().filter(|&(_, id)| id != level.goal_id())
                 && self.observer.pauses(f)
             {
-                return Status::Searching;
+                return SearchStatus::Searching;
             }
-            let Some((f, id, g, swaps)) = self.tree.pop() else { return Status::Unreachable };
+            let Some((f, id, g, swaps)) = self.tree.pop() else { return SearchStatus::Unreachable };
             self.observer.percolated(swaps);
             if id == level.goal_id() {
-                return Status::Found;
+                return SearchStatus::Found;
             }
             let node = level.node(id);
             let parent = self.tree.parent(id).map(|(parent, ())| level.node(parent).at());

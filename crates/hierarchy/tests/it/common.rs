@@ -8,7 +8,7 @@ use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaS
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, caves, describe, maze, noise, rooms, suite_grid, validate};
 use mediant_search::{
-    Counters, Euclidean, Heuristic, Hk, Outcome, Path, Planner, Query, QueryError, SquaredEuclidean, Zero,
+    Answer, Counters, Ends, Euclidean, Heuristic, Hk, Path, Planner, QueryError, SquaredEuclidean, Zero,
 };
 
 pub(crate) const CORNER_RULES: [CornerRule; 3] = [CornerRule::Never, CornerRule::One, CornerRule::Always];
@@ -116,7 +116,7 @@ impl Setting {
 }
 
 /// A planner of any type.
-pub(crate) type Solve<'i> = Box<dyn FnMut(Query, &mut Counters) -> Result<Outcome, QueryError> + Send + 'i>;
+pub(crate) type Solve<'i> = Box<dyn FnMut(Ends, &mut Counters) -> Result<Answer, QueryError> + Send + 'i>;
 
 fn boxed<'i>(mut planner: impl Planner + Send + 'i) -> Solve<'i> {
     Box::new(move |query, counters| planner.solve_observed(query, counters))
@@ -155,9 +155,9 @@ where
 }
 
 /// An answer, and the counts of its search.
-pub(crate) type Answer = (Result<Outcome, QueryError>, Counters);
+pub(crate) type CountedAnswer = (Result<Answer, QueryError>, Counters);
 
-pub(crate) fn ask(solve: &mut Solve<'_>, query: Query) -> Answer {
+pub(crate) fn ask(solve: &mut Solve<'_>, query: Ends) -> CountedAnswer {
     let mut counters = Counters::default();
     let answer = solve(query, &mut counters);
     (answer, counters)
@@ -171,15 +171,15 @@ pub(crate) fn free_cells(grid: &Grid) -> Vec<Vertex> {
 }
 
 /// Queries between random free cells; none where no cell is free.
-pub(crate) fn random_queries(rng: &mut Rng, grid: &Grid, count: usize) -> Vec<Query> {
+pub(crate) fn random_queries(rng: &mut Rng, grid: &Grid, count: usize) -> Vec<Ends> {
     let free = free_cells(grid);
-    (0..count).filter_map(|_| Some(Query::new(*rng.pick(&free)?, *rng.pick(&free)?))).collect()
+    (0..count).filter_map(|_| Some(Ends::new(*rng.pick(&free)?, *rng.pick(&free)?))).collect()
 }
 
 /// Panics unless this is a legal path of the query that turns at each waypoint but its ends.
 pub(crate) fn check_path(
     grid_graph: &GridGraph<Centers>,
-    query: Query,
+    query: Ends,
     path: &Path,
     case: &impl Fn() -> String,
 ) {
@@ -194,7 +194,7 @@ pub(crate) fn check_path(
 }
 
 /// The map and query of a failure, to be pasted into a test.
-pub(crate) fn describe_query(grid_graph: &GridGraph<Centers>, query: Query, seed: u64) -> String {
+pub(crate) fn describe_query(grid_graph: &GridGraph<Centers>, query: Ends, seed: u64) -> String {
     let map = describe(grid_graph.grid(), grid_graph.rules(), query.start, query.goal, seed);
     format!("k = {}; {map}", grid_graph.k())
 }

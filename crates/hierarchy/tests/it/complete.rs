@@ -2,13 +2,13 @@
 //! the optimum, and seldom much longer.
 
 use crate::common::{
-    Answer, Bound, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters, describe_query,
-    free_cells, grid_graph, hpa, k, map, number, random_queries, segments,
+    Bound, CountedAnswer, Setting, any_clustering, any_grid_graph, ask, check_path, chpa, clusters,
+    describe_query, free_cells, grid_graph, hpa, k, map, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, Grid, GridGraph, PlacementKind, Vertex};
 use mediant_hierarchy::{ChpaStar, Clustering, HpaStar};
 use mediant_oracle::{Explicit, Rng, on_all_cores, random_vertex, seeds};
-use mediant_search::{AStar, Counters, Guarantee, Hk, Outcome, Planner, Query, QueryError, SquaredEuclidean};
+use mediant_search::{AStar, Answer, Counters, Ends, Guarantee, Hk, Planner, QueryError, SquaredEuclidean};
 
 /// Costs within this factor of each other count as equal. On the longest path of these maps the shortest
 /// detour is more.
@@ -45,7 +45,7 @@ impl Tally {
 /// A query and its optimum over N(k); `None` where there is no path.
 #[derive(Clone, Copy)]
 struct Expected {
-    query: Query,
+    query: Ends,
     optimum: Option<f64>,
 }
 
@@ -58,7 +58,7 @@ fn expected(rng: &mut Rng, grid_graph: &GridGraph<Centers>) -> Vec<Expected> {
     for start in draw(3) {
         let costs = graph.costs_from(start);
         for goal in draw(5).into_iter().chain([start]) {
-            all.push(Expected { query: Query::new(start, goal), optimum: costs.to(goal) });
+            all.push(Expected { query: Ends::new(start, goal), optimum: costs.to(goal) });
         }
     }
     all
@@ -69,16 +69,16 @@ fn note(
     tally: &mut Tally,
     grid_graph: &GridGraph<Centers>,
     Expected { query, optimum }: Expected,
-    (answer, counters): &Answer,
+    (answer, counters): &CountedAnswer,
     case: &impl Fn() -> String,
 ) -> Option<f64> {
     tally.fallbacks += counters.fallbacks;
     match (answer, optimum) {
-        (Ok(Outcome::Unreachable), None) => {
+        (Ok(Answer::Unreachable), None) => {
             assert_eq!(*counters, Counters::default(), "there is nothing to search; {}", case());
             tally.unreachable += 1;
         }
-        (Ok(Outcome::Found(path)), Some(best)) => {
+        (Ok(Answer::Found(path)), Some(best)) => {
             check_path(grid_graph, query, path, case);
             assert!(best <= path.cost() * SLACK, "{} < {best}; {}", path.cost(), case());
             tally.found += 1;
@@ -133,7 +133,7 @@ fn check_chpa(rng: &mut Rng, grid_graph: &GridGraph<Centers>, all: &[Expected], 
     let mut tallies = [Tally::default(); 2];
     let segment = |at: Vertex| (at.x as u32 / side, at.y as u32 / side);
     for &expected in all {
-        let Query { start, goal, .. } = expected.query;
+        let Ends { start, goal, .. } = expected.query;
         let case =
             || format!("side {side}, {setting:?}; {}", describe_query(grid_graph, expected.query, seed));
         let answers = [&mut complete, &mut published].map(|planner| ask(planner, expected.query));
@@ -197,13 +197,13 @@ fn a_path_is_found_whenever_there_is_one() {
 }
 
 /// A query of which half the ends are blocked or outside the map.
-fn any_query(rng: &mut Rng, grid: &Grid) -> Query {
+fn any_query(rng: &mut Rng, grid: &Grid) -> Ends {
     let [start, goal] = [(); 2].map(|()| {
         let at = random_vertex(rng, grid, PlacementKind::Center);
         let off = [(0, 0), (0, 0), (-at.x - 1, 0), (0, -at.y - 1), (grid.width() as i32, 0), (0, 99)];
         at + off[rng.below(6) as usize].into()
     });
-    Query::new(start, goal)
+    Ends::new(start, goal)
 }
 
 #[test]
@@ -247,7 +247,7 @@ fn nothing_is_promised_of_the_length() {
 }
 
 /// The cost of a shortest path on an empty grid: |dx| + |dy|, or octile.
-fn distance(Query { start, goal, .. }: Query, k: u32) -> f64 {
+fn distance(Ends { start, goal, .. }: Ends, k: u32) -> f64 {
     let (x, y) = (f64::from(start.x.abs_diff(goal.x)), f64::from(start.y.abs_diff(goal.y)));
     if k == 2 { x + y } else { x.max(y) + x.min(y) * (2.0_f64.sqrt() - 1.0) }
 }
@@ -268,8 +268,8 @@ fn straightened_paths_on_empty_maps_are_optimal() {
         for query in random_queries(&mut rng, &grid, 10) {
             let case = || format!("{clustering:?}, {sides:?}, k = {number}, {query:?}, seed {seed}");
             let [straightened, unstraightened] = planners.each_mut().map(|planner| {
-                let outcome = ask(planner, query).0.expect("all is free");
-                outcome.path().expect("all is connected").cost()
+                let answer = ask(planner, query).0.expect("all is free");
+                answer.path().expect("all is connected").cost()
             });
             let best = distance(query, number);
             assert!(is_same(Some(straightened), Some(best)), "{straightened}, not {best}; {}", case());

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mediant_grid::{Centers, Change, CornerRule, Grid, GridGraph, Identity, Mismatch, Rectangle};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, HierarchyError, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, noise};
-use mediant_search::{Hk, Planner, Query, Zero};
+use mediant_search::{Ends, Hk, Planner, Zero};
 
 use crate::common::{clusters, grid_graph, k, segments};
 
@@ -124,7 +124,7 @@ fn bytes_are_those_of_one_map_and_one_k() {
 #[test]
 fn planners_repair_for_no_other_moves() {
     let all = all();
-    let query = Query::new((0, 0), (19, 13));
+    let query = Ends::new((0, 0), (19, 13));
     for own in &all[..1] {
         for other in &all {
             let mut hpa = HpaStar::new(&own.grid_graph, Box::new(own.clusters.clone())).expect("its own");

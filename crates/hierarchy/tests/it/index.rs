@@ -7,7 +7,7 @@ use crate::common::{
 use mediant_grid::{AsciiMap, Centers, CornerRule, Grid, GridGraph, Identity, Rectangle};
 use mediant_hierarchy::{ClusterGraph, Clustering, HierarchyError, SegmentGraph};
 use mediant_oracle::{Rng, on_all_cores, seeds};
-use mediant_search::{Outcome, Query, QueryError};
+use mediant_search::{Answer, Ends, QueryError};
 
 #[test]
 fn a_loaded_index_is_the_one_that_was_written() {
@@ -145,7 +145,7 @@ struct Answers {
 fn check_answers(
     grid_graph: &GridGraph<Centers>,
     planner: &mut crate::common::Solve<'_>,
-    queries: &[Query],
+    queries: &[Ends],
     may_give_up: bool,
     case: &impl Fn() -> String,
     answers: &mut Answers,
@@ -154,11 +154,11 @@ fn check_answers(
         let case = || format!("{}; {}", case(), describe_query(grid_graph, query, 0));
         let is_connected = grid_graph.connected(query.start, query.goal);
         match ask(planner, query).0 {
-            Ok(Outcome::Found(path)) => {
+            Ok(Answer::Found(path)) => {
                 check_path(grid_graph, query, &path, &case);
                 answers.found += 1;
             }
-            Ok(Outcome::Unreachable) => assert!(!is_connected, "{}", case()),
+            Ok(Answer::Unreachable) => assert!(!is_connected, "{}", case()),
             Err(QueryError::GaveUp { .. }) => {
                 assert!(may_give_up && is_connected, "{}", case());
                 answers.gave_up += 1;
@@ -171,7 +171,7 @@ fn check_answers(
 fn check_clusters(
     grid_graph: &GridGraph<Centers>,
     graph: &ClusterGraph,
-    queries: &[Query],
+    queries: &[Ends],
     case: &impl Fn() -> String,
     answers: &mut Answers,
 ) {
@@ -183,7 +183,7 @@ fn check_clusters(
 fn check_segments(
     grid_graph: &GridGraph<Centers>,
     graph: &SegmentGraph,
-    queries: &[Query],
+    queries: &[Ends],
     case: &impl Fn() -> String,
     (complete, published): (&mut Answers, &mut Answers),
 ) {

@@ -3,12 +3,12 @@
 use std::{sync::Arc, thread};
 
 use crate::common::{
-    Answer, Bound, Setting, ask, chpa, clusters, grid_graph, hpa, k, number, random_queries, segments,
+    Bound, CountedAnswer, Setting, ask, chpa, clusters, grid_graph, hpa, k, number, random_queries, segments,
 };
 use mediant_grid::{Centers, CornerRule, GridGraph};
 use mediant_hierarchy::{ChpaStar, ClusterGraph, Clustering, FallbackPolicy, HpaStar, SegmentGraph};
 use mediant_oracle::{Rng, caves};
-use mediant_search::{Hk, Query, SquaredEuclidean};
+use mediant_search::{Ends, Hk, SquaredEuclidean};
 
 #[derive(Clone)]
 struct Shared {
@@ -25,7 +25,7 @@ impl Shared {
         Self { grid_graph: Arc::new(grid_graph), clusters: Arc::new(clusters), segments: Arc::new(segments) }
     }
 
-    fn solve_all(&self, queries: &[Query]) -> Vec<[Answer; 3]> {
+    fn solve_all(&self, queries: &[Ends]) -> Vec<[CountedAnswer; 3]> {
         let (grid_graph, segments) = (|| Arc::clone(&self.grid_graph), || Arc::clone(&self.segments));
         let step = number(2);
         let complete =

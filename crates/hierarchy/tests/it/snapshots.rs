@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::common::{Bound, Setting, Solve, ask, chpa, clusters, grid_graph, hpa, k, number, segments};
 use mediant_grid::{AsciiMap, CornerRule, PlacementKind, draw};
 use mediant_hierarchy::{Clustering, FallbackPolicy};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 const HALL: &str = "
     ........#...........
@@ -24,7 +24,7 @@ const HALL: &str = "
 /// The sizes of the indexes, and drawings of the paths from `s` to `g`, each below its cost.
 fn picture(number_of_k: u32) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
-    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let query = Ends::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let grid_graph = grid_graph(&map.grid, k(number_of_k), CornerRule::Never);
     let graph = clusters(&grid_graph, Clustering { side: 5, levels: 2 });
     let segments = segments(&grid_graph, 3);
@@ -37,8 +37,8 @@ fn picture(number_of_k: u32) -> String {
     );
     let mut add = |name: &str, mut planner: Solve<'_>| {
         let (answer, counters) = ask(&mut planner, query);
-        let outcome = answer.expect("there is a path");
-        let path = outcome.path().expect("there is a path");
+        let answer = answer.expect("there is a path");
+        let path = answer.path().expect("there is a path");
         let picture = draw(&map.grid, PlacementKind::Center, path.waypoints());
         let fallbacks = counters.fallbacks;
         writeln!(text, "{name}: {:.4}, fallbacks {fallbacks}\n{picture}", path.cost())

@@ -1,7 +1,7 @@
 //! Wishes beyond the ends of a path.
 
 use mediant_grid::Vertex;
-use mediant_search::{Limits as SearchLimits, Query, Request};
+use mediant_search::{Ends, Limits as SearchLimits, Query};
 
 use crate::limits::Limits;
 
@@ -45,24 +45,24 @@ impl Wishes {
         self.max_expansions.map_or(limits.clone(), |count| limits.expansions(count))
     }
 
-    /// The request for the shortest path from any start to any goal within limits, which are those of
+    /// The query for the shortest path from any start to any goal within limits, which are those of
     /// [`limits`](Self::limits) with a deadline or a flag of the caller's.
     #[must_use]
-    pub fn request(&self, starts: &[Vertex], goals: &[Vertex], limits: impl Into<SearchLimits>) -> Request {
+    pub fn query(&self, starts: &[Vertex], goals: &[Vertex], limits: impl Into<SearchLimits>) -> Query {
         let limits = limits.into();
-        let mut request = match (starts, goals) {
-            (&[start], &[goal]) => Query::new(start, goal).into(),
-            _ => Request::between(starts.iter().copied(), goals.iter().copied()),
+        let mut query = match (starts, goals) {
+            (&[start], &[goal]) => Ends::new(start, goal).into(),
+            _ => Query::between(starts.iter().copied(), goals.iter().copied()),
         };
         if !limits.are_none() {
-            request = request.within(limits);
+            query = query.within(limits);
         }
         if let Some(cells) = self.tolerance {
-            request = request.tolerance(cells);
+            query = query.tolerance(cells);
         }
         if self.nearest {
-            request = request.nearest();
+            query = query.nearest();
         }
-        if self.snap { request.snap() } else { request }
+        if self.snap { query.snap() } else { query }
     }
 }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
-use mediant_search::Query;
+use mediant_search::Ends;
 use mediant_subgoal::{
     HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
 };
@@ -258,7 +258,7 @@ fn prepared<P: SubgoalPlacement>(
         let most = most(Memory::for_labels_of(grid.width(), grid.height()));
         // Made only if it is asked. The planner of the library, which is compiled anyway.
         let mut unprepared = None;
-        let mut counted = |query: Query| {
+        let mut counted = |query: Ends| {
             let planner = match &mut unprepared {
                 Some(planner) => planner,
                 none => match substitute_of(motion, space, interrupt) {

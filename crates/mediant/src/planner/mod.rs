@@ -6,8 +6,7 @@ use std::{fmt, sync::Arc};
 
 use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Placement, Vertex};
 use mediant_search::{
-    Counters, Guarantee, Observer, Outcome, Path, Planner as _, Query, QueryError, Request, Search,
-    Smoothing,
+    Answer, Counters, Ends, Guarantee, Observer, Path, Planner as _, Query, QueryError, Search, Smoothing,
     parts::{Metric, count_work},
 };
 
@@ -141,14 +140,14 @@ fn smoother_in<P: Placement>(free: &Arc<FreeSpace<P>>, smoothing: Smoothing) -> 
 }
 
 impl Planner {
-    /// Answers a query, or a [`Request`]: a query with wishes. A pair or an array of two vertices is a query.
+    /// Answers a query. A pair or an array of two vertices is a query, too.
     ///
     /// ```
-    /// use mediant::{K, Limits, Map, Motion, Outcome, Query};
+    /// use mediant::{Answer, K, Limits, Map, Motion, Query};
     ///
     /// let space = Map::from_fn(9, 9, |x, _| x == 4)?.space(Motion::centers(K::N8))?;
     /// let mut planner = space.planner(space.engine())?;
-    /// assert_eq!(planner.find(Query::new((0, 0), (8, 0)))?, Outcome::Unreachable);
+    /// assert_eq!(planner.find(Query::new((0, 0), (8, 0)))?, Answer::Unreachable);
     /// assert_eq!(planner.find([(0, 0), (3, 0)])?.cost(), Some(3.0));
     /// let nearest = planner.find(Query::new((0, 0), (8, 0)).nearest())?;
     /// assert_eq!(nearest.cost(), Some(3.0));
@@ -157,14 +156,14 @@ impl Planner {
     ///
     /// # Errors
     /// [`QueryError`] for an end that is blocked or outside the map, or where the engine gives up.
-    pub fn find(&mut self, request: impl Into<Request>) -> Result<Outcome, QueryError> {
-        let request = request.into();
-        let Some(query) = request.as_query() else {
-            self.begin(request)?;
+    pub fn find(&mut self, query: impl Into<Query>) -> Result<Answer, QueryError> {
+        let query = query.into();
+        let Some(ends) = query.as_ends() else {
+            self.begin(query)?;
             return self.finish();
         };
         self.begun = None;
-        let answer = self.search.solve(query);
+        let answer = self.search.solve(ends);
         self.smoothed(answer)
     }
 
@@ -199,22 +198,23 @@ impl Planner {
     /// can differ by one part in 2³¹ (see [`Cost`](mediant_moves::Cost)).
     ///
     /// ```
-    /// use mediant::{Engine, K, Map, Motion, Query};
+    /// use mediant::{Engine, K, Map, Motion};
     ///
     /// let space = Map::from_fn(9, 9, |x, y| x == 4 && y != 8)?.space(Motion::corners(K::ANY))?;
     /// let mut planner = space.planner(Engine::Subgoal)?;
-    /// assert_eq!(planner.distance(Query::new((0, 0), (4, 3)))?, Some(5.0));
+    /// assert_eq!(planner.distance([(0, 0), (4, 3)])?, Some(5.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
     /// As for [`find`](Self::find).
-    pub fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+    pub fn distance(&mut self, ends: impl Into<Ends>) -> Result<Option<f64>, QueryError> {
+        let ends = ends.into();
         if self.smooth.is_some() {
-            return Ok(self.find(query)?.cost());
+            return Ok(self.find(ends)?.cost());
         }
         self.begun = None;
-        self.search.distance(query)
+        self.search.distance(ends)
     }
 
     /// Answers a query and reports the events of the search.
@@ -223,17 +223,17 @@ impl Planner {
     /// As for [`find`](Self::find).
     pub fn find_observed(
         &mut self,
-        request: impl Into<Request>,
+        query: impl Into<Query>,
         observer: &mut dyn Observer,
-    ) -> Result<Outcome, QueryError> {
-        let request = request.into();
-        let Some(query) = request.as_query() else {
-            self.begin(request)?;
+    ) -> Result<Answer, QueryError> {
+        let query = query.into();
+        let Some(ends) = query.as_ends() else {
+            self.begin(query)?;
             return self.finish_observed(observer);
         };
         self.begun = None;
         let mut observer = observer;
-        let answer = Dynamic(&mut *self.search).solve_observed(query, &mut observer);
+        let answer = Dynamic(&mut *self.search).solve_observed(ends, &mut observer);
         self.smoothed(answer)
     }
 
@@ -241,32 +241,32 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`find`](Self::find).
-    pub fn find_counted(&mut self, request: impl Into<Request>) -> Result<(Outcome, Counters), QueryError> {
+    pub fn find_counted(&mut self, query: impl Into<Query>) -> Result<(Answer, Counters), QueryError> {
         let mut counters = Counters::default();
-        let answer = self.find_observed(request, &mut counters)?;
+        let answer = self.find_observed(query, &mut counters)?;
         Ok((answer, counters))
     }
 
     /// The work of a plain query; `None` if it cannot be answered.
     pub(crate) fn count_work(
         &mut self,
-        query: Query,
+        ends: Ends,
         interrupt: &Interrupt,
     ) -> Result<Option<Counters>, Interrupted> {
         self.begun = None;
-        Ok(count_work(&mut Dynamic(&mut *self.search), query, interrupt)?.ok())
+        Ok(count_work(&mut Dynamic(&mut *self.search), ends, interrupt)?.ok())
     }
 
     /// Smooths the path, if the planner smooths its paths.
-    fn smoothed(&self, answer: Result<Outcome, QueryError>) -> Result<Outcome, QueryError> {
+    fn smoothed(&self, answer: Result<Answer, QueryError>) -> Result<Answer, QueryError> {
         let Some(smooth) = &self.smooth else { return answer };
         Ok(match answer? {
-            Outcome::Found(path) => Outcome::Found(smooth(&path)),
-            Outcome::Nearest(path) => Outcome::Nearest(smooth(&path)),
-            Outcome::Stopped(mut stopped) => {
+            Answer::Found(path) => Answer::Found(smooth(&path)),
+            Answer::Nearest(path) => Answer::Nearest(smooth(&path)),
+            Answer::Stopped(mut stopped) => {
                 stopped.best = smooth(&stopped.best);
                 stopped.lower_bound = self.smoothed_bound(stopped.lower_bound);
-                Outcome::Stopped(stopped)
+                Answer::Stopped(stopped)
             }
             answer => answer,
         })

@@ -2,7 +2,7 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::K;
-use mediant_search::{Observer, Outcome, Path, QueryError, Request, Search, parts::Metric};
+use mediant_search::{Answer, Observer, Path, Query, QueryError, Search, parts::Metric};
 
 use super::Planner;
 use crate::{
@@ -36,22 +36,22 @@ impl Planner {
     /// Begins the search for an answer, and forgets the last one. Nothing is expanded yet.
     ///
     /// # Errors
-    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the request says what to
+    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the query says what to
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
-    pub fn begin(&mut self, request: impl Into<Request>) -> Result<(), QueryError> {
+    pub fn begin(&mut self, query: impl Into<Query>) -> Result<(), QueryError> {
         self.begun = None;
         let guarantee = self.search.guarantee();
         let space = self.index.space();
         let metric = self.metric.get_or_insert_with(|| metric(space));
         // Smoothing connects nothing that the search does not.
         let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
-        let (is_any_angle, request) = (unsmoothed.paths() == K::Any, request.into());
+        let (is_any_angle, query) = (unsmoothed.paths() == K::Any, query.into());
         self.begun = Some(match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };
-                Search::new(free, metric, guarantee, request)
+                Search::new(free, metric, guarantee, query)
             }
-            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, request),
+            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, query),
         }?);
         Ok(())
     }
@@ -60,7 +60,7 @@ impl Planner {
     ///
     /// # Errors
     /// [`QueryError::NotBegun`] without a search, [`QueryError::GaveUp`] where the engine gives up.
-    pub fn step(&mut self, expansions: u64) -> Result<Option<Outcome>, QueryError> {
+    pub fn step(&mut self, expansions: u64) -> Result<Option<Answer>, QueryError> {
         self.step_observed(expansions, &mut ())
     }
 
@@ -73,7 +73,7 @@ impl Planner {
         &mut self,
         expansions: u64,
         mut observer: &mut dyn Observer,
-    ) -> Result<Option<Outcome>, QueryError> {
+    ) -> Result<Option<Answer>, QueryError> {
         let Self { begun, search, metric, .. } = self;
         let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
         let answer = begun.step(&mut Dynamic(&mut **search), metric, expansions, &mut observer)?;
@@ -84,12 +84,12 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`step`](Self::step).
-    pub fn finish(&mut self) -> Result<Outcome, QueryError> {
+    pub fn finish(&mut self) -> Result<Answer, QueryError> {
         self.finish_observed(&mut ())
     }
 
     /// Continues the search until there is an answer, and reports its events. The observer cannot pause it.
-    pub(crate) fn finish_observed(&mut self, mut observer: &mut dyn Observer) -> Result<Outcome, QueryError> {
+    pub(crate) fn finish_observed(&mut self, mut observer: &mut dyn Observer) -> Result<Answer, QueryError> {
         let Self { begun, search, metric, .. } = self;
         let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
         let answer = begun.finish(&mut Dynamic(&mut **search), metric, &mut observer);

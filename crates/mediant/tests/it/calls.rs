@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use mediant::{
-    Answer, Error, Limits, Map, Vertex,
+    Error, Limits, Map, Vertex,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
 };
 use serde_json::{Map as Object, Value as Json, json};
@@ -52,16 +52,15 @@ fn answer(map: &Map, case: &Json) -> Result<Json, Error> {
         planners => planners?,
     };
     let limits = limits(call.wishes().limits());
-    let request = call.wishes().request(&[vertex(&case["start"])], &[vertex(&case["goal"])], limits);
-    let outcome = planners.find(request)?;
-    let told = Answer::new(&outcome, setup.guarantee());
+    let query = call.wishes().query(&[vertex(&case["start"])], &[vertex(&case["goal"])], limits);
+    let told = planners.find(query)?;
     let mut expected = Object::new();
     expected.insert("setup".to_owned(), setup.to_string().into());
     expected.insert("status".to_owned(), told.status().name().into());
     if let Some(path) = told.path() {
         let waypoints: Vec<[i32; 2]> = path.waypoints().iter().map(|at| [at.x, at.y]).collect();
         expected.insert("path".to_owned(), json!(waypoints));
-        expected.insert("distance".to_owned(), json!(told.distance()));
+        expected.insert("distance".to_owned(), json!(told.distance(setup.guarantee())));
     }
     if let Some(limit) = told.stopped_by() {
         expected.insert("stopped_by".to_owned(), limit.name().into());

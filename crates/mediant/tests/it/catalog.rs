@@ -9,7 +9,7 @@ use mediant::{
 };
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Guarantee, Query, QueryError, Smoothing};
+use mediant_search::{Ends, Guarantee, QueryError, Smoothing};
 
 use super::{NEVER, OPEN, build, index, k, levels, map, planner, read, setup};
 
@@ -20,8 +20,8 @@ fn plain(engine: Engine) -> Setup {
 }
 
 /// The query that all setups answer.
-fn query() -> Query {
-    Query::new((0, 0), (8, 4))
+fn query() -> Ends {
+    Ends::new((0, 0), (8, 4))
 }
 
 /// The length of the shortest path at any angle under these rules. At centers, where no engine finds it, the
@@ -63,8 +63,8 @@ fn check(setup: Setup, best: f64, shortest: f64) {
         assert!(matches!(answer, Err(QueryError::GaveUp { .. })), "{setup}: {answer:?}");
         return;
     }
-    let (outcome, counters) = answer.expect("both ends are free");
-    let cost = outcome.path().expect("there is a path").cost();
+    let (answer, counters) = answer.expect("both ends are free");
+    let cost = answer.path().expect("there is a path").cost();
     match setup.guarantee() {
         Guarantee::Suboptimal => {
             let least = if setup.paths() == K::Any { shortest } else { best };
@@ -78,7 +78,7 @@ fn check(setup: Setup, best: f64, shortest: f64) {
     // Hub labels answer without a search.
     let searches = levels(planner.index()) != Some(Levels::Labels);
     assert_eq!((counters.generated > 0, counters.expanded > 0), (searches, searches), "{setup}");
-    assert_eq!(planner.find(query()), Ok(outcome), "{setup}: the same answer again");
+    assert_eq!(planner.find(query()), Ok(answer), "{setup}: the same answer again");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mediant::{
-    Change, Engine, Index, K, Map, Motion, Origin, Outcome, Planners, Query, Rectangle, Setup, Vertex,
+    Answer, Change, Ends, Engine, Index, K, Map, Motion, Origin, Planners, Rectangle, Setup, Vertex,
     errors::QueryError,
 };
 use mediant_grid::{Corners, DiagonalGap, FreeSpace, Grid, Rules};
@@ -28,16 +28,16 @@ fn grid(rng: &mut Rng) -> Grid {
     }
 }
 
-fn queries(grid: &Grid, rng: &mut Rng, count: usize) -> Vec<Query> {
+fn queries(grid: &Grid, rng: &mut Rng, count: usize) -> Vec<Ends> {
     let corner = mediant::PlacementKind::Corner;
     let mut free = || random_free_vertex(rng, grid, corner);
-    (0..count).filter_map(|_| Some(Query::new(free()?, free()?))).collect()
+    (0..count).filter_map(|_| Some(Ends::new(free()?, free()?))).collect()
 }
 
 /// The costs of the paths that the typed planner finds.
-fn typed(grid: &Arc<Grid>, gap: DiagonalGap, k: K, queries: &[Query]) -> Vec<Option<f64>> {
+fn typed(grid: &Arc<Grid>, gap: DiagonalGap, k: K, queries: &[Ends]) -> Vec<Option<f64>> {
     let space = FreeSpace::<Corners>::new(Arc::clone(grid), gap);
-    let cost = |found: Result<Outcome, QueryError>| found.expect("both ends are free").cost();
+    let cost = |found: Result<Answer, QueryError>| found.expect("both ends are free").cost();
     match k {
         K::Any => {
             let mut anya = Anya::new(&space);
@@ -61,7 +61,7 @@ fn assert_same(found: &[Option<f64>], known: &[Option<f64>], text: &dyn Fn() -> 
     }
 }
 
-fn costs(answers: Vec<Result<Outcome, QueryError>>) -> Vec<Option<f64>> {
+fn costs(answers: Vec<Result<Answer, QueryError>>) -> Vec<Option<f64>> {
     answers.into_iter().map(|answer| answer.expect("both ends are free").cost()).collect()
 }
 
@@ -183,8 +183,8 @@ fn every_pair_of_ends_on_a_small_map() {
         for k in [K::Any, K::N4, K::N16] {
             let space = map.space(Motion::new(k, gap)).expect("a space");
             let free = ends.iter().filter(|&&at| space.is_free(at));
-            let queries: Vec<Query> =
-                free.clone().flat_map(|&a| free.clone().map(move |&b| Query::new(a, b))).collect();
+            let queries: Vec<Ends> =
+                free.clone().flat_map(|&a| free.clone().map(move |&b| Ends::new(a, b))).collect();
             let known = typed(map.grid(), gap, k, &queries);
             let found = Planners::new(space.prepare(Engine::Anya).expect("an index")).find_all(&queries);
             assert_same(&costs(found), &known, &|| format!("k = {k}, {gap}"));

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    Change, Choice, CornerRule, Demand, DiagonalGap, Engine, Error, ErrorCode, K, Map, Motion, Origin,
-    Outcome, Path, Planner, Query, Rectangle, Rules, Setup, Smoothing, Space, Vertex,
+    Answer, Change, Choice, CornerRule, Demand, DiagonalGap, Ends, Engine, Error, ErrorCode, K, Map, Motion,
+    Origin, Path, Planner, Query, Rectangle, Rules, Setup, Smoothing, Space, Vertex,
     errors::{BrokenPath, QueryError},
     files::MapOptions,
     grid::Identity,
@@ -113,7 +113,7 @@ fn maps_are_made_in_many_ways() {
 fn observers_are_trait_objects() {
     let space = map().space(Motion::centers(K::N8)).expect("a space");
     let mut planner = space.planner(Engine::AStar).expect("a planner");
-    let query = Query::new((0, 0), (8, 4));
+    let query = Ends::new((0, 0), (8, 4));
     let mut counters: Box<dyn Observer> = Box::new(Counters::default());
     let observed = planner.find_observed(query, &mut *counters);
     let (counted, counts) = planner.find_counted(query).expect("both ends are free");
@@ -124,7 +124,7 @@ fn observers_are_trait_objects() {
 /// The engine that is chosen takes the space, and its paths are shortest.
 #[test]
 fn the_chosen_engine_finds_shortest_paths() {
-    let query = Query::new((0, 0), (8, 4));
+    let query = Ends::new((0, 0), (8, 4));
     for rules in Rules::ALL {
         for k in (2..=7).map(|n| K::Finite(k(n))).chain([K::Any]) {
             let Ok(space) = map().space(Motion::new(k, rules)) else { continue };
@@ -307,7 +307,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let (mut repaired, mut new) = (index.planner(), anew.planner());
                 for _ in 0..8 {
                     let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
-                    let query = Query::new(end(), end());
+                    let query = Ends::new(end(), end());
                     assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
                 }
             }
@@ -429,7 +429,7 @@ fn answers_are_taken_apart() {
     let space = map().space(Motion::centers(K::N8)).expect("a space");
     let mut planner = space.planner(Engine::Subgoal).expect("a planner");
     let answer = planner.find(Query::new((0, 0), (0, 0))).expect("a free cell");
-    assert!(matches!(&answer, Outcome::Found(path) if path.cost() == 0.0));
+    assert!(matches!(&answer, Answer::Found(path) if path.cost() == 0.0));
     assert_eq!(answer.into_path().map(|path| path.waypoints().len()), Some(1));
     assert!(planner.bound().is_some_and(|bound| bound > 1.0));
     let cutting =
@@ -465,7 +465,7 @@ fn the_readme_shows_the_examples() {
 #[test]
 fn an_index_takes_the_options_that_it_serves() {
     let (mut accepted, mut refused) = (0, 0);
-    let query = Query::new((0, 0), (8, 4));
+    let query = Ends::new((0, 0), (8, 4));
     let motions =
         [Motion::centers(K::N4), Motion::centers(K::N8), Motion::corners(K::N16), Motion::corners(K::ANY)];
     for motion in motions {

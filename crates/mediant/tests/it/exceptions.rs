@@ -1,7 +1,7 @@
 //! Cells that count otherwise for one query, and discs among obstacles that change: as maps that were edited.
 
 use mediant::{
-    Disc, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Query, Rectangle, Rules,
+    Disc, Ends, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Query, Rectangle, Rules,
     Setup, Vertex,
 };
 use mediant_grid::Grid;
@@ -42,7 +42,7 @@ fn check(seed: u64) -> [usize; 2] {
     for setup in Setup::all(Motion::new(k, rules)) {
         let mut planner = setup.planner(&map).expect("a planner");
         let mut vertex = || random_vertex(rng, &grid, rules.placement());
-        let query = Query::new(vertex(), vertex());
+        let query = Ends::new(vertex(), vertex());
         let cells: Vec<(Vertex, bool)> =
             (0..4).map(|n| (random_vertex(rng, &grid, PlacementKind::Center), n % 2 == 0)).collect();
         let mut exceptions = Exceptions::new().free_ends();
@@ -56,14 +56,14 @@ fn check(seed: u64) -> [usize; 2] {
         let engine = if by.engine.kind() == setup.engine.kind() { setup } else { by };
         let expected = engine.planner(&expected_map).expect("a planner").find(query).expect("free ends");
         let said = format!("seed {seed}, {setup}, searched by {}", answer.searched_by);
-        assert_eq!(answer.outcome.path().is_some(), expected.path().is_some(), "{said}");
+        assert_eq!(answer.answer.path().is_some(), expected.path().is_some(), "{said}");
         if engine.optimal_over().is_some() || setup.optimal_over().is_some() {
-            let costs = [&answer.outcome, &expected].map(|answer| answer.cost().unwrap_or(0.0));
+            let costs = [&answer.answer, &expected].map(|answer| answer.cost().unwrap_or(0.0));
             assert!((costs[0] - costs[1]).abs() < 1e-6, "{costs:?}, {said}");
         }
         let space = expected_map.space(setup.motion).expect("a space");
-        assert!(answer.outcome.path().is_none_or(|path| space.check(path).is_ok()), "{said}");
-        counts[0] += usize::from(answer.outcome.path().is_some());
+        assert!(answer.answer.path().is_none_or(|path| space.check(path).is_ok()), "{said}");
+        counts[0] += usize::from(answer.answer.path().is_some());
         counts[1] += usize::from(answer.searched_by != setup.engine.kind());
     }
     counts
@@ -83,10 +83,10 @@ fn an_agent_that_marks_its_own_cell_leaves_it_with_every_engine() {
     let map = Map::from_rows([".....", "@..@.", "....."]).expect("a map");
     for setup in Setup::all(Motion::new(K::N8, Rules::ALL[0])) {
         let mut planner = setup.planner(&map).expect("a planner");
-        let query = Query::new((3, 1), (0, 1));
+        let query = Ends::new((3, 1), (0, 1));
         assert!(planner.find(query).is_err(), "{setup}");
         let answer = planner.find_except(query, &Exceptions::new().free_ends()).expect("free ends");
-        let cost = answer.outcome.cost().expect("there is a way");
+        let cost = answer.answer.cost().expect("there is a way");
         // Wavefronts have the fewest moves: two diagonal ones and one along the row are as many.
         let promises = setup.optimal_over() == Some(setup.k());
         assert!(cost > 2.9 && (!promises || cost == 3.0), "{cost}, {setup}");

@@ -1,7 +1,7 @@
 //! Fields of a space are the distances of single paths; the same for maps of agents and widest paths.
 
 use mediant::{
-    Engine, ErrorCode, K, Map, Motion, Query, Setup, Space, Vertex,
+    Ends, Engine, ErrorCode, K, Map, Motion, Query, Setup, Space, Vertex,
     grid::{Fit, Outside},
 };
 use mediant_grid::Rules;
@@ -89,7 +89,7 @@ fn all_that_is_measured_is_the_same_number() {
                 let text = || format!("{setup}, seed {seed}: {start} to {goals:?}");
                 let index = setup.prepare(&space).expect("an index");
                 let mut planner = index.planner();
-                let mut one = |&goal| planner.distance(Query::new(start, goal)).expect("free ends");
+                let mut one = |&goal| planner.distance(Ends::new(start, goal)).expect("free ends");
                 let each: Vec<f64> = goals.iter().map(|at| one(at).unwrap_or(f64::INFINITY)).collect();
                 assert_eq!(each, expected, "{}", text());
                 let table = index.table([start], goals.iter().copied()).expect("free ends");

@@ -1,8 +1,8 @@
 //! First guesses of people who have read nothing: each compiles, and means what it says.
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, Error, ErrorCode, FiniteK, K, Limits, Map, Motion, Outcome, Path,
-    Planner, Planners, Query, Rectangle, Request, Setup, Vertex, grid::Vector, search::IntoK,
+    Answer, CornerRule, DiagonalGap, Ends, Engine, Error, ErrorCode, FiniteK, K, Limits, Map, Motion, Path,
+    Planner, Planners, Query, Rectangle, Setup, Vertex, grid::Vector, search::IntoK,
 };
 
 /// A map with a way around its wall.
@@ -190,8 +190,8 @@ fn planners_take_pairs() -> Result<(), Error> {
     assert_eq!(planner.find(((0, 0), (3, 2)))?, expected);
     assert_eq!(planner.find([(0, 0), (3, 2)])?, expected);
     assert_eq!(planner.find([[0_u32, 0], [3, 2]])?, expected);
-    assert_eq!(planner.find(Query::from(((0, 0), (3, 2))).nearest())?, expected);
-    assert_eq!(planner.find(Request::from([(0, 0), (3, 2)]))?, expected);
+    assert_eq!(planner.find(Ends::from(((0, 0), (3, 2))).nearest())?, expected);
+    assert_eq!(planner.find(Query::from([(0, 0), (3, 2)]))?, expected);
     let planners = Planners::new(planner.index().clone());
     assert_eq!(planners.path((0, 0), (3, 2))?, path);
     assert_eq!(planners.find(((0, 0), (3, 2)))?, expected);
@@ -206,17 +206,17 @@ fn planners_take_pairs() -> Result<(), Error> {
 #[test]
 fn values_are_printed() -> Result<(), Error> {
     assert_eq!(hall()?.to_string(), "....\n.##.\n....");
-    assert_eq!(Query::new((0, 0), (7, 0)).to_string(), "(0, 0) → (7, 0)");
+    assert_eq!(Ends::new((0, 0), (7, 0)).to_string(), "(0, 0) → (7, 0)");
     assert_eq!(Rectangle::new(4, 1, 3, 2).to_string(), "3 × 2 cells at (4, 1)");
     let mut planner = planner()?;
     let path = planner.path((0, 0), (3, 0))?.expect("there is a way");
     assert_eq!(path.to_string(), "(0, 0) → (3, 0)");
-    let mut check = |request: Request, expected: &str| {
-        assert_eq!(planner.find(request).expect("a valid request").to_string(), expected);
+    let mut check = |query: Query, expected: &str| {
+        assert_eq!(planner.find(query).expect("a valid query").to_string(), expected);
     };
-    let around = Query::new((0, 1), (3, 1));
+    let around = Ends::new((0, 1), (3, 1));
     check(around.into(), "found: 4 waypoints, 5.00 cells");
-    check(Query::new((0, 0), (0, 0)).into(), "found: 1 waypoint, 0.00 cells");
+    check(Ends::new((0, 0), (0, 0)).into(), "found: 1 waypoint, 0.00 cells");
     check(
         around.within(Limits::new().expansions(1)),
         "stopped by its limit on expansions: 1 waypoint, 0.00 cells so far, at least 4.41",
@@ -230,7 +230,7 @@ fn values_are_printed() -> Result<(), Error> {
         "stopped by its timeout: 1 waypoint, 0.00 cells so far, at least 3.00",
     );
     check(Query::new((0, 0), (1, 1)).nearest(), "unreachable, the nearest is: 2 waypoints, 1.00 cells");
-    assert_eq!(Outcome::Unreachable.to_string(), "unreachable");
+    assert_eq!(Answer::Unreachable.to_string(), "unreachable");
     Ok(())
 }
 
@@ -258,15 +258,15 @@ fn planners_can_be_shared() {
 #[test]
 fn a_limit_can_be_a_duration() -> Result<(), Box<dyn std::error::Error>> {
     use std::time::Duration;
-    let (mut planner, query) = (planner()?, Query::new((0, 0), (3, 2)));
+    let (mut planner, ends) = (planner()?, Ends::new((0, 0), (3, 2)));
     let ample = Limits::new().time(Duration::from_secs(600));
     for _ in 0..2 {
-        assert!(planner.find(query.within(&ample))?.path().is_some());
+        assert!(planner.find(ends.within(&ample))?.path().is_some());
     }
-    assert!(matches!(planner.find(query.within(Limits::new().time(Duration::ZERO)))?, Outcome::Stopped(_)));
+    assert!(matches!(planner.find(ends.within(Limits::new().time(Duration::ZERO)))?, Answer::Stopped(_)));
     // The flag and an own deadline stay.
     let late = Limits::new().deadline(|| true).time(Duration::from_secs(600));
-    assert!(matches!(planner.find(query.within(late))?, Outcome::Stopped(_)));
+    assert!(matches!(planner.find(ends.within(late))?, Answer::Stopped(_)));
     let stopped = hall()?.within(Limits::new().time(Duration::ZERO)).space(Motion::default());
     check_error(stopped, ErrorCode::Stopped);
     Ok(())

@@ -14,7 +14,7 @@ use mediant_grid::{Centers, CornerRule, GridGraph, PlacementKind, Rules};
 use mediant_hierarchy::{ClusterGraph, Clustering, FallbackPolicy, HierarchyError, SegmentGraph};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, caves};
-use mediant_search::{Guarantee, Query};
+use mediant_search::{Ends, Guarantee};
 
 use super::{NEVER, build, index, k, map, read, setup};
 
@@ -39,11 +39,11 @@ fn has_hierarchy(setup: &Setup) -> bool {
 }
 
 /// A map with many clusters, and queries between cells all over it.
-fn caves_with_queries() -> (Map, Vec<Query>) {
+fn caves_with_queries() -> (Map, Vec<Ends>) {
     let grid = caves(&mut Rng::new(3), 50, 40);
     let all = (0..40).flat_map(|y| (0..50).map(move |x| (x, y)));
     let free: Vec<(i32, i32)> = all.filter(|&(x, y)| !grid.is_blocked(x, y)).step_by(149).collect();
-    let queries = free.iter().flat_map(|&from| free.iter().map(move |&to| Query::new(from, to))).collect();
+    let queries = free.iter().flat_map(|&from| free.iter().map(move |&to| Ends::new(from, to))).collect();
     (grid.into(), queries)
 }
 

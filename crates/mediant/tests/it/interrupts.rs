@@ -139,7 +139,7 @@ fn fields_tables_and_widest_paths_stop() {
     check("another k", |limits| jps.within(limits).for_k(K::N4));
 }
 
-/// A request's limits cover what is prepared for it.
+/// A query's limits cover what is prepared for it.
 #[test]
 fn exceptions_stop() {
     let mut planner: Planner =

@@ -1,6 +1,6 @@
 //! Subgoals as the map decides: hub labels within a budget of memory, contraction hierarchies, and neither.
 
-use mediant::{Engine, Error, ErrorCode, Guarantee, Index, Map, Query, Setup, Vertex, options::Levels};
+use mediant::{Ends, Engine, Error, ErrorCode, Guarantee, Index, Map, Query, Setup, Vertex, options::Levels};
 use mediant_formats::{IndexFile, IndexKey};
 use mediant_grid::Identity;
 use mediant_oracle::{Rng, noise, random_free_vertex};
@@ -13,16 +13,16 @@ fn noisy(side: u32, percent: u32) -> Map {
 }
 
 /// Some queries between free vertices of a map.
-fn queries(map: &Map, setup: Setup, count: usize) -> Vec<Query> {
+fn queries(map: &Map, setup: Setup, count: usize) -> Vec<Ends> {
     let rng = &mut Rng::new(11);
     let mut end = || -> Vertex {
         random_free_vertex(rng, map.grid(), setup.rules().placement()).expect("a free vertex")
     };
-    (0..count).map(|_| Query::new(end(), end())).collect()
+    (0..count).map(|_| Ends::new(end(), end())).collect()
 }
 
 /// Checks that two indexes give paths of the same lengths.
-fn check_equal(one: &Index, other: &Index, queries: &[Query]) {
+fn check_equal(one: &Index, other: &Index, queries: &[Ends]) {
     let (mut one, mut other) = (one.planner(), other.planner());
     for &query in queries {
         let [a, b] = [&mut one, &mut other].map(|planner| planner.find(query).expect("free ends").cost());
@@ -95,7 +95,7 @@ fn distances_are_the_lengths_of_paths() {
             let [path, distance] = [path, distance].map(Option::unwrap_or_default);
             assert!((path - distance).abs() <= 1e-9 * path, "{setup}: {query:?}: {path}, {distance}");
         }
-        let outside = planner.distance(Query::new((0, 0), (-1, 0))).map_err(|error| error.to_string());
+        let outside = planner.distance(Ends::new((0, 0), (-1, 0))).map_err(|error| error.to_string());
         assert_eq!(
             outside,
             planner.find(Query::new((0, 0), (-1, 0))).map(|_| None).map_err(|error| error.to_string())

@@ -17,7 +17,7 @@ mod mistakes;
 mod odd_input;
 mod options;
 mod planners;
-mod requests;
+mod queries;
 mod serialized;
 mod subgoals;
 mod table;

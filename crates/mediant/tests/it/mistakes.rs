@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    Engine, Error, ErrorCode as Code, FiniteK, Index, K, Limits, Map, Motion, Path, Query, Rectangle,
-    Request, Setup, Space, Vertex,
+    Ends, Engine, Error, ErrorCode as Code, FiniteK, Index, K, Limits, Map, Motion, Path, Query, Rectangle,
+    Setup, Space, Vertex,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
     errors::absent,
     grid::Grid,
@@ -62,19 +62,19 @@ fn in_maps_and_queries() -> Vec<Mistake> {
     ]
 }
 
-/// Mistakes in requests.
+/// Mistakes in queries.
 fn in_requests() -> Vec<Mistake> {
-    let find = |request: Request| Ok(walkers().planner(Engine::AStar)?.find(request).map(drop)?);
+    let find = |query: Query| Ok(walkers().planner(Engine::AStar)?.find(query).map(drop)?);
     let (none, start): ([Vertex; 0], _) = ([], [(0, 0)]);
-    let query = Query::new((0, 0), (1, 0));
+    let ends = Ends::new((0, 0), (1, 0));
     let step = || Ok(walkers().planner(Engine::AStar)?.step(1).map(drop)?);
     vec![
-        (Code::NoEnd, find(Request::between(none, start))),
-        (Code::NoEnd, find(Request::between(start, none).snap().nearest())),
-        (Code::Number, find(query.tolerance(f64::NAN))),
-        (Code::Number, find(query.within(Limits::new().cost(-1.0)))),
+        (Code::NoEnd, find(Query::between(none, start))),
+        (Code::NoEnd, find(Query::between(start, none).snap().nearest())),
+        (Code::Number, find(ends.tolerance(f64::NAN))),
+        (Code::Number, find(ends.within(Limits::new().cost(-1.0)))),
         (Code::NotBegun, step()),
-        (Code::StartBlocked, find(Request::between([(0, 0), (6, 0)], start).nearest())),
+        (Code::StartBlocked, find(Query::between([(0, 0), (6, 0)], start).nearest())),
         (Code::GoalOutside, find(Query::new((0, 0), (9, 0)).tolerance(5.0).nearest())),
     ]
 }

@@ -1,7 +1,7 @@
 //! Planners that threads share answer as one planner does.
 
 use mediant::{
-    Engine, K, Map, Motion, Outcome, Planners, Query, Setup, errors::QueryError, search::BatchProgress,
+    Answer, Ends, Engine, K, Map, Motion, Planners, Setup, errors::QueryError, search::BatchProgress,
 };
 use mediant_grid::{Rules, Vertex};
 use mediant_oracle::{Rng, random_grid};
@@ -9,10 +9,10 @@ use mediant_oracle::{Rng, random_grid};
 use super::{NEVER, OPEN};
 
 /// Queries from anywhere to anywhere, off the map and on blocked cells too.
-fn queries(map: &Map, count: usize, rng: &mut Rng) -> Vec<Query> {
+fn queries(map: &Map, count: usize, rng: &mut Rng) -> Vec<Ends> {
     let (width, height) = (map.width() + 2, map.height() + 2);
     let mut any = || Vertex::new(rng.below(width) as i32 - 1, rng.below(height) as i32 - 1);
-    (0..count).map(|_| Query::new(any(), any())).collect()
+    (0..count).map(|_| Ends::new(any(), any())).collect()
 }
 
 fn check(k: K, rules: Rules, seed: u64) {
@@ -46,7 +46,7 @@ fn answers_of_shared_planners_are_those_of_one() {
     }
 }
 
-fn planners() -> (Planners, Vec<Query>) {
+fn planners() -> (Planners, Vec<Ends>) {
     let map = Map::from_fn(40, 30, |x, y| x % 7 == 3 && y % 5 != 2).expect("a map");
     let index = map.space(Motion::centers(K::N8)).and_then(|space| space.prepare(Engine::Subgoal));
     (Planners::new(index.expect("subgoals")), queries(&map, 2 * Planners::CHUNK + 17, &mut Rng::new(5)))
@@ -60,14 +60,14 @@ fn chunks_come_in_order() {
     let chunks = planners.find_in_chunks(queries.len(), |index| queries[index], &progress, add);
     assert_eq!(chunks.iter().map(Vec::len).collect::<Vec<_>>(), [Planners::CHUNK, Planners::CHUNK, 17]);
     assert_eq!(chunks.concat(), planners.find_all(&queries));
-    assert_eq!((progress.done(), planners.find_all::<Query>(&[])), (queries.len(), Vec::new()));
+    assert_eq!((progress.done(), planners.find_all::<Ends>(&[])), (queries.len(), Vec::new()));
 }
 
 #[test]
 fn a_cancelled_batch_stops() {
     let (planners, queries) = planners();
     let progress = BatchProgress::default();
-    let add = |count: &mut usize, _: Result<Outcome, QueryError>| {
+    let add = |count: &mut usize, _: Result<Answer, QueryError>| {
         *count += 1;
         progress.cancel();
     };

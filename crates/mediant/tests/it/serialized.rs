@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, FiniteK, K, Map, Motion, Path, PlacementKind, Query, Rectangle, Rules,
+    CornerRule, DiagonalGap, Ends, Engine, FiniteK, K, Map, Motion, Path, PlacementKind, Rectangle, Rules,
     Setup, Vertex,
     options::{EngineName, Levels, Memory},
 };
@@ -32,7 +32,7 @@ fn check_refused<T: DeserializeOwned + Debug>(form: &Value, why: &str) {
 #[test]
 fn places_are_arrays() {
     check(&Vertex::new(3, -1), &json!([3, -1]));
-    check(&Query::new((0, 0), (7, 2)), &json!({ "start": [0, 0], "goal": [7, 2] }));
+    check(&Ends::new((0, 0), (7, 2)), &json!({ "start": [0, 0], "goal": [7, 2] }));
     check(&Rectangle::new(4, 1, 3, 2), &json!({ "x": 4, "y": 1, "width": 3, "height": 2 }));
     check(&Path::new(Vec::new()), &json!([]));
     let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
@@ -111,7 +111,7 @@ fn invalid_data_is_refused() {
     check_refused::<Vertex>(&json!([1, 1_u64 << 31]), "2147483648");
     check_refused::<Vertex>(&json!([0.5, 1]), "0.5");
     check_refused::<Path>(&json!([[1, 2], [3]]), "invalid length");
-    check_refused::<Query>(&json!({ "start": [0, 0], "goal": [1, 1], "nearest": true }), "nearest");
+    check_refused::<Ends>(&json!({ "start": [0, 0], "goal": [1, 1], "nearest": true }), "nearest");
     check_refused::<Rectangle>(&json!({ "x": -1, "y": 0, "width": 1, "height": 1 }), "-1");
     check_refused::<Engine>(&json!("warp"), "expected one of");
     check_refused::<EngineName>(&json!("warp"), "auto, ");

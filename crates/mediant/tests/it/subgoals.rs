@@ -10,7 +10,7 @@ use mediant::{
 };
 use mediant_grid::{Centers, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
-use mediant_search::Query;
+use mediant_search::Ends;
 use mediant_subgoal::{Hierarchy, SubgoalGraph};
 
 use super::{build, index, k, levels, map, read, setup};
@@ -57,7 +57,7 @@ fn subgoal_graphs_at_centers_are_for_small_k() {
 
 #[test]
 fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
-    let query = Query::new((0, 0), (8, 4));
+    let query = Ends::new((0, 0), (8, 4));
     let mut setups = 0;
     for rules in Rules::ALL {
         for k in [2, 3, 5].map(|n| K::Finite(k(n))).into_iter().chain([K::Any]) {

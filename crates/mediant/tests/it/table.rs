@@ -1,9 +1,8 @@
 //! Tables of distances are the lengths of single paths.
 
-use mediant::{Engine, Error, ErrorCode, K, Map, Motion, Setup};
+use mediant::{Engine, Error, ErrorCode, K, Map, Motion, Query, Setup};
 use mediant_grid::{Rules, Vertex};
 use mediant_oracle::{Rng, random_grid};
-use mediant_search::Query;
 
 use super::{NEVER, OPEN};
 

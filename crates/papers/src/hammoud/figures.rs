@@ -4,7 +4,7 @@ pub(super) mod pages;
 
 use mediant_bench::Study;
 use mediant_report::{Column, Row};
-use mediant_search::Query;
+use mediant_search::Ends;
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -100,9 +100,9 @@ fn part(map: &Map, passes: u32, sparse: usize) -> Result<Part, Error> {
     let every = every(side, sparse);
     // From the middle of the first group, so that the shortest queries weigh no more than the longest.
     let instances = map.instances()?.into_iter().skip(every / 2).step_by(every);
-    let queries: Vec<Query> = instances
+    let queries: Vec<Ends> = instances
         .filter(|instance| instance.start != instance.goal)
-        .map(|instance| Query::new(instance.start, instance.goal))
+        .map(|instance| Ends::new(instance.start, instance.goal))
         .collect();
     let mut study = Study::new(&grid, &queries, passes);
     let mut sums = Vec::new();

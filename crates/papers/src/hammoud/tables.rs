@@ -3,11 +3,11 @@
 mod list;
 pub(super) mod pages;
 
-use mediant_bench::{Answer, Study};
+use mediant_bench::{PathFigures, Study};
 use mediant_formats::Instance;
 use mediant_grid::Vertex;
 use mediant_report::{Column, Row};
-use mediant_search::Query;
+use mediant_search::Ends;
 use serde::{Deserialize, Serialize};
 
 use self::list::plain_astar;
@@ -157,8 +157,8 @@ fn pair(vertex: Vertex) -> (i32, i32) {
     (vertex.x, vertex.y)
 }
 
-fn query(instance: &Instance) -> Query {
-    Query::new(instance.start, instance.goal)
+fn query(instance: &Instance) -> Ends {
+    Ends::new(instance.start, instance.goal)
 }
 
 /// The published rows of a map.
@@ -233,7 +233,7 @@ impl Answered {
         }
     }
 
-    fn found(self, answer: &Answer, micros: Option<f64>) -> Self {
+    fn found(self, answer: &PathFigures, micros: Option<f64>) -> Self {
         Self {
             cost: answer.cost,
             moves: answer.moves.into(),
@@ -253,7 +253,7 @@ fn alike(map: &Map) -> Result<Vec<Alike>, Error> {
         return Ok(Vec::new());
     }
     let grid = map.grid()?;
-    let queries: Vec<Query> = map.instances()?.iter().map(query).collect();
+    let queries: Vec<Ends> = map.instances()?.iter().map(query).collect();
     let costs = setups::costs(&setups::run(&mut Study::new(&grid, &queries, 0), "jps-block:3:one")?);
     let count = |row: &Published| costs.iter().filter(|&&cost| (cost - row.jps).abs() < 5.1e-5).count();
     Ok(rows.iter().map(|row| Alike { start: row.start, goal: row.goal, one: count(row) as u64 }).collect())

@@ -7,7 +7,7 @@ use mediant::Map;
 use mediant_grid::{AsciiMap, DiagonalGap, Grid, Vertex};
 use mediant_oracle::Visibility;
 use mediant_report::GridDrawing;
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use crate::{Error, setups::setup};
 
@@ -39,8 +39,8 @@ impl Worst {
         let wrong = |wrong: &dyn std::fmt::Display| Error::Reproduce(format!("Figure 6, k = {k}: {wrong}"));
         let setup = setup(&format!("astar:{k}:one"))?;
         let mut planner = setup.planner(&Map::from(Arc::clone(&self.grid))).map_err(|error| wrong(&error))?;
-        let outcome = planner.find(Query::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
-        let path = outcome.path().ok_or_else(|| wrong(&"no path"))?;
+        let answer = planner.find(Ends::new(self.start, self.goal)).map_err(|error| wrong(&error))?;
+        let path = answer.path().ok_or_else(|| wrong(&"no path"))?;
         Ok(path.waypoints().iter().map(|at| (f64::from(at.x) + 0.5, f64::from(at.y) + 0.5)).collect())
     }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use mediant_bench::Study;
 use mediant_grid::Rules;
 use mediant_report::{Column, Row};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use super::searches::{Algorithm, Heuristic, Measure, SearchKey};
 use crate::{
@@ -120,14 +120,14 @@ const fn timed_of(problems: usize) -> usize {
 }
 
 /// Random problems.
-fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Query>, Error> {
+fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Ends>, Error> {
     let grid = map.grid()?;
     let setup = setup("astar:3:never")?;
     let space = setup
         .space(&mediant::Map::from(Arc::clone(&grid)))
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = setup.rules();
-    let solvable = |query: Query| space.connected(query.start, query.goal);
+    let solvable = |query: Ends| space.connected(query.start, query.goal);
     Ok(random_queries(&mut context.rng(map), &grid, rules, problems(context, &map.set), solvable))
 }
 

@@ -56,7 +56,7 @@ fn rows<'py>(
     let start = first_invalid(index, &queries.starts);
     let goal = first_invalid(index, &queries.goals).filter(|_| start != Some(0));
     if let Some(number) = goal.or(start.map(|row| row * columns))
-        && let Err(error) = planners.with(|planner| planner.distance(queries.query(number)))
+        && let Err(error) = planners.with(|planner| planner.distance(queries.ends(number)))
     {
         return Err(numbered("query", number, error.into()));
     }

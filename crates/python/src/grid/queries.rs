@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use mediant::{
-    Demand, Error, Limit, Limits, Outcome, Stopped,
+    Answer, Demand, Error, Limit, Limits, Stopped,
     search::{Progress, Stage},
 };
 use numpy::PyArray2;
@@ -14,7 +14,7 @@ use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
 use crate::{
-    answer::{self, Answer},
+    answer::{self, PyAnswer},
     arguments::{Points, bytes, file},
     arrays::PathPoints,
     background::{detached, in_pool, on_thread},
@@ -219,7 +219,7 @@ impl Grid {
         points: Option<&Bound<'py, PyAny>>,
         counters: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Answer> {
+    ) -> PyResult<PyAnswer> {
         let keywords = Keywords::read("find", how, ALL)?;
         let planners = match self.planners(py, &keywords)? {
             Ok(planners) => planners,
@@ -445,12 +445,12 @@ impl Grid {
         start: &Bound<'_, PyAny>,
         error: &Error,
         points: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<(Answer, PyErr)> {
+    ) -> PyResult<(PyAnswer, PyErr)> {
         let by = if let Error::Stopped { by, .. } = error { *by } else { Limit::Timeout };
         let start_at = Points::read("start", start)?.as_slice().first().copied().unwrap_or_default();
-        let outcome = Outcome::Stopped(Stopped::before_search(by, start_at));
+        let answer = Answer::Stopped(Stopped::before_search(by, start_at));
         let (points, rules) = (PathPoints::read(points)?, keywords.motion()?.rules);
-        answer::before_search(start.py(), &outcome, points, rules, error)
+        answer::before_search(start.py(), &answer, points, rules, error)
     }
 
     /// An index that was read, with the options of a call.

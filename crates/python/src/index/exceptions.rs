@@ -1,11 +1,11 @@
 //! Cells that count otherwise for one query.
 
-use mediant::{Error, Exceptions, Guarantee, Outcome, Stopped};
+use mediant::{Answer, Error, Exceptions, Guarantee, Stopped};
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
 use crate::{
-    answer::Answer,
+    answer::PyAnswer,
     arguments::{Points, flag},
     arrays::PathPoints,
     background::Interruption,
@@ -80,7 +80,7 @@ impl Index {
         points: Option<&Bound<'py, PyAny>>,
         counters: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Answer> {
+    ) -> PyResult<PyAnswer> {
         let keywords = Keywords::read("find_except", wishes, WISHES)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let is_set = |name, value: Option<&_>| value.map_or(Ok(false), |value| flag(name, value));
@@ -96,30 +96,30 @@ impl Index {
         }
         py.detach(|| self.planners.try_make_ready()).map_err(raised)?;
         let interruption = Interruption::default();
-        let request = keywords.request(&start, &goal, Some(&interruption));
+        let query = keywords.query(&start, &goal, Some(&interruption));
         let answered = py.detach(|| {
             self.planners.with(|planner| {
-                let mut other = planner.except(&request, &exceptions)?;
+                let mut other = planner.except(&query, &exceptions)?;
                 let planner = other.as_mut().unwrap_or(planner);
-                let (outcome, counters) = if counts {
-                    let (outcome, counters) = planner.find_counted(request)?;
-                    (outcome, Some(counters))
+                let (answer, counters) = if counts {
+                    let (answer, counters) = planner.find_counted(query)?;
+                    (answer, Some(counters))
                 } else {
-                    (planner.find(request)?, None)
+                    (planner.find(query)?, None)
                 };
-                Ok::<_, Error>((outcome, (planner.guarantee(), counters)))
+                Ok::<_, Error>((answer, (planner.guarantee(), counters)))
             })
         });
         if let Some(error) = interruption.take() {
             return Err(error);
         }
-        let (outcome, rest) = match answered {
+        let (answer, rest) = match answered {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                (Outcome::Stopped(Stopped::before_search(by, start)), (Guarantee::Suboptimal, None))
+                (Answer::Stopped(Stopped::before_search(by, start)), (Guarantee::Suboptimal, None))
             }
             answered => answered.map_err(raised)?,
         };
-        Answer::new(py, &outcome, points, self.setup().rules(), rest)
+        PyAnswer::new(py, &answer, points, self.setup().rules(), rest)
     }
 }

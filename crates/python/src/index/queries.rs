@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use mediant::{Limits, Outcome, Planners, Query, search::Counters};
+use mediant::{Answer, Ends, Limits, Planners, search::Counters};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
 use crate::{
-    answer::{self, Answer},
+    answer::{self, PyAnswer},
     arguments::{Points, flag},
     arrays::PathPoints,
     background::{Interruption, is_watched, on_thread},
@@ -31,17 +31,17 @@ impl Asked<'_, '_> {
     }
 
     /// The query, if no more is asked than a path from one vertex to another.
-    fn plain(&self, (start, goal): &(Points, Points)) -> Option<Query> {
+    fn plain(&self, (start, goal): &(Points, Points)) -> Option<Ends> {
         match (start, goal) {
             (Points::One(start), Points::One(goal)) if self.keywords.call.wishes().is_none() => {
-                Some(Query::new(*start, *goal))
+                Some(Ends::new(*start, *goal))
             }
             _ => None,
         }
     }
 
     /// Answers it with the GIL released.
-    fn outcome(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Outcome, Option<Counters>)> {
+    fn answered(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Answer, Option<Counters>)> {
         let is_plain = self.plain(ends).is_some();
         let is_watched =
             self.keywords.call.wishes().timeout.is_some() || is_watched(self.planners.index(), is_plain);
@@ -53,13 +53,13 @@ impl Asked<'_, '_> {
         };
         ready.map_err(raised)?;
         let interruption = is_watched.then(Interruption::default);
-        let request = self.keywords.request(&ends.0, &ends.1, interruption.as_ref());
+        let query = self.keywords.query(&ends.0, &ends.1, interruption.as_ref());
         let answer = self.start.py().detach(|| {
             if counts {
-                let find = |planner: &mut mediant::Planner| planner.find_counted(request);
-                return self.planners.with(find).map(|(outcome, counters)| (outcome, Some(counters)));
+                let find = |planner: &mut mediant::Planner| planner.find_counted(query);
+                return self.planners.with(find).map(|(answer, counters)| (answer, Some(counters)));
             }
-            self.planners.find(request).map(|outcome| (outcome, None))
+            self.planners.find(query).map(|answer| (answer, None))
         });
         if let Some(error) = interruption.and_then(|interruption| interruption.take()) {
             return Err(error);
@@ -75,22 +75,22 @@ impl Asked<'_, '_> {
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let points = PathPoints::read(points)?;
         let rules = self.planners.index().setup().rules();
-        let outcome = answer::whole(py, self.outcome(&self.ends()?, false)?.0, points, rules)?;
-        outcome.path().map(|path| points.array(py, path, rules.placement())).transpose()
+        let answer = answer::whole(py, self.answered(&self.ends()?, false)?.0, points, rules)?;
+        answer.path().map(|path| points.array(py, path, rules.placement())).transpose()
     }
 
     /// `distance`. It makes no path where it needs none.
     pub(crate) fn distance(&self, py: Python<'_>) -> PyResult<f64> {
         let (ends, index) = (self.ends()?, self.planners.index());
-        if let Some(query) = self.plain(&ends).filter(|_| !is_watched(index, true)) {
+        if let Some(ends) = self.plain(&ends).filter(|_| !is_watched(index, true)) {
             py.detach(|| self.planners.try_make_ready()).map_err(raised)?;
-            let distance = py.detach(|| self.planners.with(|planner| planner.distance(query)));
+            let distance = py.detach(|| self.planners.with(|planner| planner.distance(ends)));
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }
         let setup = index.setup();
-        let outcome = self.outcome(&ends, false)?.0;
-        let outcome = answer::whole(py, outcome, PathPoints::Waypoints, setup.rules())?;
-        Ok(mediant::Answer::new(&outcome, setup.guarantee()).distance())
+        let answer = self.answered(&ends, false)?.0;
+        let answer = answer::whole(py, answer, PathPoints::Waypoints, setup.rules())?;
+        Ok(answer.distance(setup.guarantee()))
     }
 
     /// `find`.
@@ -99,12 +99,12 @@ impl Asked<'_, '_> {
         py: Python<'_>,
         points: Option<&Bound<'_, PyAny>>,
         counters: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<Answer> {
+    ) -> PyResult<PyAnswer> {
         let points = PathPoints::read(points)?;
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
-        let (outcome, counters) = self.outcome(&self.ends()?, counters)?;
-        Answer::new(py, &outcome, points, setup.rules(), (setup.guarantee(), counters))
+        let (answer, counters) = self.answered(&self.ends()?, counters)?;
+        PyAnswer::new(py, &answer, points, setup.rules(), (setup.guarantee(), counters))
     }
 }
 
@@ -240,7 +240,7 @@ impl Index {
         points: Option<&Bound<'py, PyAny>>,
         counters: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Answer> {
+    ) -> PyResult<PyAnswer> {
         let keywords = Keywords::read("find", wishes, WISHES)?;
         Asked { planners: &self.planners, start, goal, keywords }.find(py, points, counters)
     }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant::{
-    Guarantee, Limits, Outcome, Path, Planner, Query, Rules, Vertex,
+    Answer, Ends, Guarantee, Limits, Path, Planner, Rules, Vertex,
     errors::QueryError,
     search::{Counters, Observer},
 };
@@ -18,7 +18,7 @@ use super::{
     trace::{Events, Kind, Watched},
 };
 use crate::{
-    answer::Answer,
+    answer::PyAnswer,
     arguments::{Points, file, flag, integer, point},
     arrays::{PathPoints, points_array},
     background::on_thread,
@@ -68,14 +68,14 @@ type Promised = (Guarantee, Option<Counters>);
 struct State {
     planner: Planner,
     /// For the file of a trace: the first start and the first goal.
-    query: Query,
+    ends: Ends,
     trace: Option<Events>,
-    answer: Option<Outcome>,
+    answer: Option<Answer>,
 }
 
 impl State {
     /// Goes on by so many expansions, or until a signal's handler raises.
-    fn step(&mut self, expansions: u64) -> Result<Result<Option<Outcome>, QueryError>, PyErr> {
+    fn step(&mut self, expansions: u64) -> Result<Result<Option<Answer>, QueryError>, PyErr> {
         let Self { planner, trace, answer, .. } = self;
         let mut nobody = ();
         let events = trace.as_mut().map_or(&mut nobody as &mut dyn Observer, |events| events);
@@ -84,8 +84,8 @@ impl State {
         if let Some(raised) = watched.raised {
             return Err(raised);
         }
-        if let Ok(Some(outcome)) = &step {
-            *answer = Some(outcome.clone());
+        if let Ok(Some(told)) = &step {
+            *answer = Some(told.clone());
         }
         Ok(step)
     }
@@ -103,7 +103,7 @@ impl State {
 
     /// Writes the events to a file.
     fn write_trace(&self, path: PathBuf, limits: &Limits) -> PyResult<()> {
-        self.events()?.write(path, self.planner.index().space(), (self.query, self.answer.as_ref()), limits)
+        self.events()?.write(path, self.planner.index().space(), (self.ends, self.answer.as_ref()), limits)
     }
 }
 
@@ -115,8 +115,8 @@ fn idle(state: &Mutex<State>) -> PyResult<MutexGuard<'_, State>> {
 
 impl Search {
     /// An answer with its arrays.
-    fn told(&self, py: Python<'_>, outcome: &Outcome, promised: Promised) -> PyResult<Answer> {
-        Answer::new(py, outcome, self.points, self.rules, promised)
+    fn told(&self, py: Python<'_>, answer: &Answer, promised: Promised) -> PyResult<PyAnswer> {
+        PyAnswer::new(py, answer, self.points, self.rules, promised)
     }
 
     /// A path with its array.
@@ -124,12 +124,12 @@ impl Search {
         self.points.array(py, path, self.rules.placement())
     }
 
-    fn step_by(&self, py: Python<'_>, expansions: u64) -> PyResult<Option<Answer>> {
+    fn step_by(&self, py: Python<'_>, expansions: u64) -> PyResult<Option<PyAnswer>> {
         let (step, promised) = py.detach(|| {
             let mut state = idle(&self.state)?;
             Ok::<_, PyErr>((state.step(expansions)?, state.promised()))
         })?;
-        step.map_err(raised)?.map(|outcome| self.told(py, &outcome, promised)).transpose()
+        step.map_err(raised)?.map(|answer| self.told(py, &answer, promised)).transpose()
     }
 
     /// The vertices of the events of a kind, in their order.
@@ -165,12 +165,12 @@ impl Search {
 
     /// The answer, once it is there.
     #[getter]
-    fn answer(&self, py: Python<'_>) -> PyResult<Option<Answer>> {
+    fn answer(&self, py: Python<'_>) -> PyResult<Option<PyAnswer>> {
         let (answer, promised) = {
             let state = idle(&self.state)?;
             (state.answer.clone(), state.promised())
         };
-        answer.map(|outcome| self.told(py, &outcome, promised)).transpose()
+        answer.map(|answer| self.told(py, &answer, promised)).transpose()
     }
 
     /// Goes on by at most so many expansions.
@@ -194,7 +194,7 @@ impl Search {
     /// --------
     /// See `Search`.
     #[pyo3(signature = (expansions = None), text_signature = "($self, expansions=1)")]
-    fn step(&self, py: Python<'_>, expansions: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Answer>> {
+    fn step(&self, py: Python<'_>, expansions: Option<&Bound<'_, PyAny>>) -> PyResult<Option<PyAnswer>> {
         let expansions = expansions.map_or(Ok(1), |value| integer("expansions", value, 0))?;
         self.step_by(py, expansions)
     }
@@ -217,7 +217,7 @@ impl Search {
     /// >>> index = mediant.Grid.from_rows(["....", ".##.", "...."]).prepare("jps")
     /// >>> index.search((0, 0), (2, 3)).finish().path.tolist()
     /// [[0, 0], [0, 3], [2, 3]]
-    fn finish(&self, py: Python<'_>) -> PyResult<Answer> {
+    fn finish(&self, py: Python<'_>) -> PyResult<PyAnswer> {
         loop {
             if let Some(answer) = self.step_by(py, u64::MAX)? {
                 return Ok(answer);
@@ -393,15 +393,15 @@ impl Index {
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let (points, index) = (PathPoints::read(points)?, self.planners.index().clone());
         let first = |ends: &Points| ends.as_slice().first().copied().unwrap_or_default();
-        let query = Query::new(first(&start), first(&goal));
-        let request = keywords.timed_request(&start, &goal);
+        let ends = Ends::new(first(&start), first(&goal));
+        let query = keywords.timed_request(&start, &goal);
         let planner = py.detach(|| -> Result<Planner, mediant::Error> {
             let mut planner = index.try_planner()?;
-            planner.begin(request)?;
+            planner.begin(query)?;
             Ok(planner)
         });
         let (trace, rules) = (keeps_events.then(Events::default), index.setup().rules());
-        let state = State { planner: planner.map_err(raised)?, query, trace, answer: None };
+        let state = State { planner: planner.map_err(raised)?, ends, trace, answer: None };
         Ok(Search { state: Arc::new(Mutex::new(state)), points, rules })
     }
 }

@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf, time::Instant};
 
 use mediant::{
-    Cost, Limits, Outcome, Query, Space, Vertex,
+    Answer, Cost, Ends, Limits, Space, Vertex,
     search::{Counters, NodeEvent, Observer, Tracer},
 };
 use mediant_formats::NewFile;
@@ -56,7 +56,7 @@ impl Events {
         &self,
         path: PathBuf,
         space: &Space,
-        (query, answer): (Query, Option<&Outcome>),
+        (query, answer): (Ends, Option<&Answer>),
         limits: &Limits,
     ) -> PyResult<()> {
         let (placement, interrupt) = (space.motion().rules.placement(), limits.interrupt());

@@ -14,11 +14,11 @@ use super::{
     search::AnyaSearch,
 };
 use crate::{
+    guarantee::Guarantee,
     observer::{NodeEvent, Observer},
-    outcome::Guarantee,
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
 };
 
 /// Anya on a map: shortest paths at any angle ([`new`](Self::new)), or over N(k) ([`over`](Self::over)).
@@ -27,7 +27,7 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Anya, Planner, Query};
+/// use mediant_search::{Anya, Ends, Planner};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
@@ -35,13 +35,13 @@ use crate::{
 ///     ....
 /// ")?;
 /// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
-/// let outcome = Anya::new(&space).solve(Query::new((0, 1), (4, 3)))?;
-/// let path = outcome.path().ok_or("there is a way")?;
+/// let answer = Anya::new(&space).solve(Ends::new((0, 1), (4, 3)))?;
+/// let path = answer.path().ok_or("there is a way")?;
 /// assert_eq!(path.waypoints(), [(0, 1), (1, 2), (4, 3)].map(Into::into));
 /// assert_eq!(path.cost(), 2.0_f64.sqrt() + 10.0_f64.sqrt());
 ///
-/// let outcome = Anya::over(&space, FiniteK::N8)?.solve(Query::new((0, 1), (4, 3)))?;
-/// let path = outcome.path().ok_or("there is a way")?;
+/// let answer = Anya::over(&space, FiniteK::N8)?.solve(Ends::new((0, 1), (4, 3)))?;
+/// let path = answer.path().ok_or("there is a way")?;
 /// assert_eq!(path.waypoints(), [(0, 1), (2, 3), (4, 3)].map(Into::into));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -61,7 +61,7 @@ pub struct Anya<S, N: Norm = EuclideanNorm> {
     goal: Vertex,
     /// The last root of the path to the goal, once that is found.
     last: Option<u32>,
-    status: Status,
+    status: SearchStatus,
 }
 
 impl Anya<()> {
@@ -93,7 +93,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S, LatticeNorm> {
 impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     fn with_norm(space: S, norm: N) -> Self {
         let frontier = Frontier::new(norm, space.grid().width() + 1, space.grid().height() + 1);
-        let (goal, status) = (Vertex::new(0, 0), Status::default());
+        let (goal, status) = (Vertex::new(0, 0), SearchStatus::default());
         Self { space, opened: None, frontier, next: Vec::new(), goal, last: None, status }
     }
 
@@ -121,16 +121,16 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     }
 
     /// Expands nodes until the best one holds the goal, none is open, or the observer pauses.
-    fn run(&mut self, observer: &mut impl Observer) -> Status {
+    fn run(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { space, opened, frontier, next, goal, last, .. } = self;
         let rows = Self::rows(space, opened.as_ref());
         let mut search = AnyaSearch { space, rows, frontier, goal: *goal, observer, next };
         loop {
-            let Some((f, node)) = search.frontier.best() else { return Status::Unreachable };
+            let Some((f, node)) = search.frontier.best() else { return SearchStatus::Unreachable };
             let is_current = search.frontier.root(node.root).is_current;
             let is_last = is_current && search.reaches_goal(node);
             if is_current && !is_last && search.observer.pauses(N::cost_of_priority(f)) {
-                return Status::Searching;
+                return SearchStatus::Searching;
             }
             search.frontier.pop();
             if !is_current {
@@ -138,7 +138,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
             }
             if is_last {
                 *last = Some(node.root);
-                return Status::Found;
+                return SearchStatus::Found;
             }
             let root = search.frontier.root(node.root);
             let parent = search.frontier.parent(node.root);
@@ -151,27 +151,27 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        self.status = Status::Unreachable;
-        let ends = query.ends(&self.space)?;
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        self.status = SearchStatus::Unreachable;
+        let ends = query.ids(&self.space)?;
         (self.goal, self.last) = (query.goal, None);
         let Self { space, opened, frontier, next, goal, .. } = self;
         if ends.is_some() && query.start == query.goal {
             frontier.start(query.start);
-            self.status = Status::Found;
+            self.status = SearchStatus::Found;
         } else if ends.is_some() {
             if let Some(opened) = opened {
                 opened.open(space.grid(), [query.start, query.goal]);
             }
             let rows = Self::rows(space, opened.as_ref());
             AnyaSearch { space, rows, frontier, goal: *goal, observer, next }.start(query.start);
-            self.status = Status::Searching;
+            self.status = SearchStatus::Searching;
         }
         Ok(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if self.status == Status::Searching {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if self.status == SearchStatus::Searching {
             self.status = self.run(observer);
         }
         Ok(self.status)
@@ -180,7 +180,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         match self.last.filter(|_| at == self.goal) {
             Some(root) => Some(self.frontier.path(&self.space, root, at)),
-            None if self.status == Status::Unreachable => None,
+            None if self.status == SearchStatus::Unreachable => None,
             None => self.frontier.path_to_root(&self.space, at),
         }
     }

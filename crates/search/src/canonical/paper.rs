@@ -24,8 +24,8 @@ use mediant_grid::{GridGraph, Placement, Vertex};
 use super::{clearance::is_convex_corner, order::natural, pattern_table::pattern_at};
 use crate::{
     best_first::BestFirst,
+    guarantee::Guarantee,
     heuristic::Heuristic,
-    outcome::Guarantee,
     successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 

@@ -20,15 +20,15 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Canonical, Hk, Planner, Query};
+/// use mediant_search::{Canonical, Ends, Hk, Planner};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
 ///     .#..
 /// ")?;
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::new(4)?, CornerRule::Never)?;
-/// let outcome = Canonical::new(&graph, Hk).solve(Query::new((0, 0), (3, 1)))?;
-/// assert_eq!(outcome.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
+/// let answer = Canonical::new(&graph, Hk).solve(Ends::new((0, 0), (3, 1)))?;
+/// assert_eq!(answer.path().map(|path| path.cost()), Some(1.0 + 5.0_f64.sqrt()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub type Canonical<G, H, P> = BestFirst<G, H, CanonicalMoves<P>>;

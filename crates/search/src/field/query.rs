@@ -5,7 +5,7 @@ use mediant_moves::Cost;
 
 use crate::{
     limit::greatest_cost,
-    query::{Query, QueryError},
+    query::{Ends, QueryError},
 };
 
 /// The sources of a field, and its limit.
@@ -56,9 +56,9 @@ impl<'q> FieldQuery<'q> {
         if self.limit.is_nan() || self.limit < 0.0 {
             return Err(FieldError::Limit { limit: self.limit });
         }
-        self.sources.iter().try_for_each(|&at| Query::new(at, at).check(space))?;
+        self.sources.iter().try_for_each(|&at| Ends::new(at, at).check(space))?;
         if let Some(&first) = self.sources.first() {
-            self.until.iter().try_for_each(|&at| Query::new(first, at).check(space))?;
+            self.until.iter().try_for_each(|&at| Ends::new(first, at).check(space))?;
         }
         Ok(self.sources.iter().filter_map(|&at| space.id(at)).collect())
     }

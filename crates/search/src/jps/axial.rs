@@ -47,7 +47,7 @@ pub(super) enum JumpPointRule {
 
 /// Which of 64 vertices end a jump, one bit each, the lowest for the first vertex.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ends {
+pub(super) struct JumpStops {
     /// Jump points, if the jump reaches them.
     pub(super) jump: u64,
     /// Vertices that the jump cannot enter.
@@ -67,28 +67,33 @@ impl JumpPointRule {
     /// The ends among 64 vertices. `cells(ahead, row)` says which of the cells are blocked that lie `ahead`
     /// steps further on and `row` rows beside. At corners the cells of a vertex are the two beside the next
     /// step of the jump, in rows −1 and 0.
-    fn ends(self, cells: impl Fn(i32, i32) -> u64) -> Ends {
+    fn ends(self, cells: impl Fn(i32, i32) -> u64) -> JumpStops {
         match self {
             Self::Behind => {
                 let opens = |row| cells(-1, row) & !cells(0, row);
-                Ends { jump: opens(-1) | opens(1), dead: cells(0, 0) }
+                JumpStops { jump: opens(-1) | opens(1), dead: cells(0, 0) }
             }
             Self::Ahead { one } => {
                 let opens = |row| cells(0, row) & !cells(1, row);
                 let barred = if one { cells(1, 0) } else { 0 };
-                Ends { jump: (opens(-1) | opens(1)) & !barred, dead: cells(0, 0) }
+                JumpStops { jump: (opens(-1) | opens(1)) & !barred, dead: cells(0, 0) }
             }
             Self::Edges { closed } => {
                 let [passed, next] = [-1, 0].map(|ahead| [-1, 0].map(|row| cells(ahead, row)));
                 let jump = passed[0] & !next[0] | passed[1] & !next[1];
                 let gap = (passed[0] ^ next[0]) & !(passed[0] ^ next[1]) & !(next[0] ^ passed[1]);
-                Ends { jump, dead: passed[0] & passed[1] | if closed { gap } else { 0 } }
+                JumpStops { jump, dead: passed[0] & passed[1] | if closed { gap } else { 0 } }
             }
         }
     }
 
     /// The ends of a jump by `v`, along either axis, at vertex (x, y) and at the next 63 of its row.
-    pub(super) fn ends_in_row<P: Placement>(self, rows: &BitMatrix, (x, y): (i32, i32), v: Vector) -> Ends {
+    pub(super) fn ends_in_row<P: Placement>(
+        self,
+        rows: &BitMatrix,
+        (x, y): (i32, i32),
+        v: Vector,
+    ) -> JumpStops {
         let at = rows.index(x, y);
         self.ends(|ahead, beside| {
             let along = P::cell(v.x + v.y, ahead);
@@ -98,7 +103,7 @@ impl JumpPointRule {
     }
 
     /// The ends at vertex `u` of line `v` of a matrix and at the next 63 vertices of the jump.
-    fn ends_from<P: Placement>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> Ends {
+    fn ends_from<P: Placement>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> JumpStops {
         let (at, row) = (matrix.index(u, v), matrix.bits_per_row());
         self.ends(|ahead, beside| {
             // Backward, the cell of the first vertex is the last of the 64; at corners it is the one before.
@@ -181,7 +186,7 @@ impl AxialStops {
                 interrupt.check(DURING)?;
                 words.extend((0..per_line as i32).map(|word| {
                     let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
-                    let Ends { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
+                    let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
                     [jump | dead, dead]
                 }));
             }

@@ -378,7 +378,7 @@ impl<P: Placement> JumpContext<'_, P> {
     }
 }
 
-/// The outcome of a diagonal jump at one of its vertices.
+/// The answer of a diagonal jump at one of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Turn {
     /// It goes on.

@@ -23,7 +23,7 @@ use crate::canonical::Pruning;
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Hk, JpsPlus, JumpTable, Planner, Query};
+/// use mediant_search::{Ends, Hk, JpsPlus, JumpTable, Planner};
 ///
 /// let map = AsciiMap::parse("
 ///     ....
@@ -35,8 +35,8 @@ use crate::canonical::Pruning;
 /// // The bytes can be saved; they are checked when they come back.
 /// let table = JumpTable::from_bytes(&graph, &table.to_bytes())?;
 /// let mut planner = JpsPlus::new(&graph, Arc::new(table), Hk)?;
-/// let outcome = planner.solve(Query::new((0, 1), (3, 1)))?;
-/// assert_eq!(outcome.path().map(|path| path.cost()), Some(5.0));
+/// let answer = planner.solve(Ends::new((0, 1), (3, 1)))?;
+/// assert_eq!(answer.path().map(|path| path.cost()), Some(5.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -14,11 +14,11 @@ use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement, Vertex, 
 pub use self::{linear::smooth, taut::pull_taut};
 
 use crate::{
+    guarantee::Guarantee,
     observer::Observer,
-    outcome::Guarantee,
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
 };
 
 /// How a path is smoothed.
@@ -103,7 +103,7 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{AStar, Guarantee, Hk, Planner, Query, Smoothed, Smoothing};
+/// use mediant_search::{AStar, Ends, Guarantee, Hk, Planner, Smoothed, Smoothing};
 ///
 /// let map = AsciiMap::parse("
 ///     .....
@@ -114,9 +114,9 @@ impl<P: Placement> HasFreeSpace for GridGraph<P> {
 /// let graph = Arc::new(GridGraph::<Corners>::new(Arc::new(map.grid), k, gap)?);
 /// let search = AStar::new(Arc::clone(&graph), Hk);
 /// let mut planner = Smoothed::new(search, graph, Some(Smoothing::Taut))?;
-/// let outcome = planner.solve(Query::new((0, 0), (5, 3)))?;
+/// let answer = planner.solve(Ends::new((0, 0), (5, 3)))?;
 /// let expected = [(0, 0), (2, 2), (5, 3)].map(Into::into);
-/// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
+/// assert_eq!(answer.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// assert_eq!(planner.guarantee(), Guarantee::AtMost(k));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -148,7 +148,7 @@ where
     S: Deref<Target: HasFreeSpace>,
     E: Planner,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.planner.begin(query, observer)
     }
 
@@ -157,11 +157,11 @@ where
         starts: &[Vertex],
         goal: Vertex,
         observer: &mut impl Observer,
-    ) -> Option<Status> {
+    ) -> Option<SearchStatus> {
         self.planner.begin_from(starts, goal, observer)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.planner.proceed(observer)
     }
 
@@ -173,7 +173,7 @@ where
         })
     }
 
-    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+    fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {
         match self.smoothing {
             Some(_) => Ok(self.solve(query)?.cost()),
             None => self.planner.distance(query),

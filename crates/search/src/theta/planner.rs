@@ -11,15 +11,15 @@ use super::{
     sight_check::{Eager, Lazy, SightCheck},
 };
 use crate::{
+    guarantee::Guarantee,
     heuristic::Heuristic,
     line_path::push_waypoint,
     nodes::{Node, NodeStore},
     observer::Observer,
     open_list::OpenList,
-    outcome::Guarantee,
     path::Path,
-    planner::{Planner, Status},
-    query::{Query, QueryError},
+    planner::{Planner, SearchStatus},
+    query::{Ends, QueryError},
 };
 
 /// Theta*: A* in which the parent of a node is the parent of the node that generates it, if that sees it.
@@ -28,7 +28,7 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, GridGraph};
 /// use mediant_moves::FiniteK;
-/// use mediant_search::{Hk, Planner, Query, ThetaStar};
+/// use mediant_search::{Ends, Hk, Planner, ThetaStar};
 ///
 /// let map = AsciiMap::parse("
 ///     ......
@@ -37,9 +37,9 @@ use crate::{
 ///     ......
 /// ")?;
 /// let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::new(3)?, DiagonalGap::Open)?;
-/// let outcome = ThetaStar::new(&graph, Hk).solve(Query::new((0, 1), (6, 2)))?;
+/// let answer = ThetaStar::new(&graph, Hk).solve(Ends::new((0, 1), (6, 2)))?;
 /// let expected = [(0, 1), (4, 1), (6, 2)].map(Into::into);
-/// assert_eq!(outcome.path().map(|path| path.waypoints()), Some(&expected[..]));
+/// assert_eq!(answer.path().map(|path| path.waypoints()), Some(&expected[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub type ThetaStar<G, H> = Theta<G, H, Eager>;
@@ -72,7 +72,7 @@ where
     open: OpenList,
     sight: SightCache,
     ends: [VertexId; 2],
-    status: Status,
+    status: SearchStatus,
     check: PhantomData<S>,
 }
 
@@ -90,7 +90,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
     pub fn new(graph: G, heuristic: H) -> Self {
         let nodes = NodeStore::new(graph.vertex_count());
         let sight = SightCache::new::<P>(&graph);
-        let (open, ends, status) = (OpenList::default(), [VertexId(0); 2], Status::default());
+        let (open, ends, status) = (OpenList::default(), [VertexId(0); 2], SearchStatus::default());
         let (wider, is_wider) = (None, false);
         Self { graph, wider, is_wider, heuristic, nodes, open, sight, ends, status, check: PhantomData }
     }
@@ -125,33 +125,33 @@ where
     H: Heuristic,
     S: SightCheck,
 {
-    fn begin(&mut self, query: Query, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        self.status = Status::Unreachable;
-        let mut ends = query.ends(&self.graph)?;
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        self.status = SearchStatus::Unreachable;
+        let mut ends = query.ids(&self.graph)?;
         self.is_wider = false;
         if ends.is_none()
             && let Some(wider) = self.wider()
         {
-            ends = query.ends(wider)?;
+            ends = query.ids(wider)?;
             self.is_wider = true;
         }
         if let Some((start, goal)) = ends {
             self.ends = [start, goal];
             self.search(observer).begin();
-            self.status = Status::Searching;
+            self.status = SearchStatus::Searching;
         }
         Ok(self.status)
     }
 
-    fn proceed(&mut self, observer: &mut impl Observer) -> Result<Status, QueryError> {
-        if self.status == Status::Searching {
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if self.status == SearchStatus::Searching {
             self.status = self.search(observer).run();
         }
         Ok(self.status)
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let id = self.graph.id(at).filter(|_| self.status != Status::Unreachable)?;
+        let id = self.graph.id(at).filter(|_| self.status != SearchStatus::Unreachable)?;
         let is_closed = self.nodes.get(id)?.slot == Node::<Parents>::CLOSED;
         // The parent of an open node may be a guess.
         is_closed.then(|| self.path(self.ends[0], id))

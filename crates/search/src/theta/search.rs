@@ -12,7 +12,7 @@ use crate::{
     observer::{NodeEvent, Observer},
     open_list::{Entry, OpenList},
     parent::ParentPointer,
-    planner::Status,
+    planner::SearchStatus,
     segment::{is_at_least, segment_cost},
 };
 
@@ -95,15 +95,15 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> ThetaSearch<'_, P, 
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    pub(super) fn run(&mut self) -> Status {
+    pub(super) fn run(&mut self) -> SearchStatus {
         loop {
             if let Some(next) = self.open.get(0).filter(|next| next.id() != self.goal)
                 && self.observer.pauses(next.f())
             {
-                return Status::Searching;
+                return SearchStatus::Searching;
             }
             let Some((entry, swaps)) = self.open.pop(|id, slot| self.nodes.set_slot(id, slot)) else {
-                return Status::Unreachable;
+                return SearchStatus::Unreachable;
             };
             self.observer.percolated(swaps);
             let id = entry.id();
@@ -118,7 +118,7 @@ impl<P: Placement, H: Heuristic, S: SightCheck, O: Observer> ThetaSearch<'_, P, 
                 node = settled;
             }
             if id == self.goal {
-                return Status::Found;
+                return SearchStatus::Found;
             }
             let parent = (id != self.start).then(|| self.graph.vertex(node.pointer.parent));
             self.observer.expanded(NodeEvent { at: here.at, parent, g: node.g, f });

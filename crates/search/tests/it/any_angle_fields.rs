@@ -7,7 +7,7 @@ use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, PlacementKin
 use mediant_oracle::{
     Rng, Visibility, caves, describe, maze, noise, random_free_vertex, rooms, seeds, suite_grid, validate,
 };
-use mediant_search::{AnyAngleField, AnyAngleFields, Anya, FieldError, FieldQuery, Planner, Query};
+use mediant_search::{AnyAngleField, AnyAngleFields, Anya, Ends, FieldError, FieldQuery, Planner};
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
@@ -80,7 +80,7 @@ fn check_all(grid: &Arc<Grid>, gap: DiagonalGap, counts: &[usize], seed: u64) ->
             let within = all.iter().copied().filter(|&(_, length)| length <= limit * (1.0 + 2_f64.powi(-31)));
             assert!(range.iter().eq(within), "{query:?}; {}", case(far));
         }
-        if let Some(path) = Anya::new(space).solve(Query::new(far, first)).unwrap().into_path() {
+        if let Some(path) = Anya::new(space).solve(Ends::new(far, first)).unwrap().into_path() {
             let range = fields.field(FieldQuery::new(&[first]).within(path.cost())).unwrap();
             assert!(range.get(far).is_some(), "within {}; {}", path.cost(), case(far));
         }
@@ -132,7 +132,7 @@ fn any_angle_fields_agree_with_anya() {
             let Some(source) = random_free_vertex(&mut rng, &grid, PlacementKind::Corner) else { continue };
             let field = AnyAngleFields::new(space).field(FieldQuery::new(&[source])).unwrap();
             let mut anya = Anya::new(space);
-            let mut best = |at| anya.solve(Query::new(source, at)).ok().and_then(|outcome| outcome.cost());
+            let mut best = |at| anya.solve(Ends::new(source, at)).ok().and_then(|answer| answer.cost());
             let case = |at| describe(&grid, space.rules(), source, at, seed);
             check_field(&field, space, &[source], &mut best, &case, 31);
         }

@@ -9,7 +9,7 @@ use mediant_oracle::{
     Explicit, Rng, Visibility, describe, every, is_exhaustive, random_free_vertex, seeds, suite_grid,
     validate,
 };
-use mediant_search::{Anya, Counters, Guarantee, Norm, Outcome, Planner, Query, QueryError};
+use mediant_search::{Answer, Anya, Counters, Ends, Guarantee, Norm, Planner, QueryError};
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
 
@@ -50,10 +50,10 @@ fn check<N: Norm>(
     for (start, goals) in queries {
         for (&goal, expected) in goals.iter().zip(costs(*start, goals)) {
             let case = || format!("k = {k:?}; {}", describe(grid, rules, *start, goal, seed));
-            let outcome = anya.solve(Query::new(*start, goal)).expect("both ends are free");
-            match (&outcome, expected) {
-                (Outcome::Unreachable, None) => {}
-                (Outcome::Found(path), Some(best)) => {
+            let answer = anya.solve(Ends::new(*start, goal)).expect("both ends are free");
+            match (&answer, expected) {
+                (Answer::Unreachable, None) => {}
+                (Answer::Found(path), Some(best)) => {
                     let (cost, waypoints) = (path.cost(), path.waypoints());
                     assert!((cost - best).abs() <= 1e-9 * best, "cost {cost}, best {best}; {}", case());
                     let fault = validate(grid, rules, k, *start, goal, waypoints, cost);
@@ -61,9 +61,9 @@ fn check<N: Norm>(
                     let is_taut = k.is_some() || is_taut(grid, waypoints);
                     assert!(is_taut, "{waypoints:?} is not taut; {}", case());
                 }
-                (outcome, best) => panic!("{outcome:?}, best {best:?}; {}", case()),
+                (answer, best) => panic!("{answer:?}, best {best:?}; {}", case()),
             }
-            answers[usize::from(outcome.path().is_none())] += 1;
+            answers[usize::from(answer.path().is_none())] += 1;
         }
     }
     answers
@@ -193,8 +193,8 @@ fn anya_over_n_k_is_exact_on_every_map_of_nine_cells() {
 fn solve(drawing: &str, gap: DiagonalGap, start: (i32, i32), goal: (i32, i32)) -> Option<f64> {
     let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
     let space = FreeSpace::<Corners>::new(grid, gap);
-    let outcome = Anya::new(&space).solve(Query::new(start, goal)).expect("both ends are free");
-    outcome.path().map(|path| path.cost())
+    let answer = Anya::new(&space).solve(Ends::new(start, goal)).expect("both ends are free");
+    answer.path().map(|path| path.cost())
 }
 
 #[test]
@@ -258,7 +258,7 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
     let mut anya = Anya::new(&space);
     assert_eq!(anya.guarantee(), Guarantee::OptimalAnyAngle);
-    let mut solve = |start: (i32, i32), goal: (i32, i32)| anya.solve(Query::new(start, goal));
+    let mut solve = |start: (i32, i32), goal: (i32, i32)| anya.solve(Ends::new(start, goal));
     assert!(matches!(solve((0, 0), (2, 0)), Err(QueryError::Blocked { .. })));
     assert!(matches!(solve((2, 0), (4, 0)), Err(QueryError::Outside { .. })));
     assert!(matches!(solve((i32::MIN, 0), (i32::MAX, 9)), Err(QueryError::Outside { .. })));
@@ -266,12 +266,12 @@ fn ends_that_no_path_may_stand_on_are_errors() {
     let grid = Arc::new(AsciiMap::parse(".#.").expect("the drawing is a map").grid);
     let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
     let mut counters = Counters::default();
-    let outcome = Anya::new(&space).solve_observed(Query::new((0, 0), (3, 0)), &mut counters);
-    assert_eq!((outcome, counters), (Ok(Outcome::Unreachable), Counters::default()));
+    let answer = Anya::new(&space).solve_observed(Ends::new((0, 0), (3, 0)), &mut counters);
+    assert_eq!((answer, counters), (Ok(Answer::Unreachable), Counters::default()));
     // All blocked: no vertex is free.
     let grid = Arc::new(Grid::from_fn(3, 2, |_, _| true).expect("a valid size"));
     let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Closed);
-    assert!(Anya::new(&space).solve(Query::new((0, 0), (1, 1))).is_err());
+    assert!(Anya::new(&space).solve(Ends::new((0, 0), (1, 1))).is_err());
 }
 
 /// From corner to corner of a large map, without obstacles, and with a comb of walls that are open at the top
@@ -287,17 +287,17 @@ fn large_maps() {
         for (start, goal) in
             [((0, 0), (far, far)), ((far, 0), (0, far)), ((7, far), (far, 1)), ((0, 9), (far, 9))]
         {
-            let query = Query::new(start, goal);
-            let outcome = anya.solve(query).expect("both ends are free");
-            let path = outcome.path().expect("there is a way");
+            let query = Ends::new(start, goal);
+            let answer = anya.solve(query).expect("both ends are free");
+            let path = answer.path().expect("there is a way");
             assert_eq!(path.waypoints(), [query.start, query.goal]);
         }
     }
     // Walls in every eighth column, open one cell at the end.
     let comb = Grid::from_fn(side, side, |x, y| x % 8 == 4 && y != if x % 16 == 4 { 0 } else { side - 1 });
     let space = FreeSpace::<Corners>::new(Arc::new(comb.expect("a valid size")), DiagonalGap::Open);
-    let outcome = Anya::new(&space).solve(Query::new((0, far), (far, far))).expect("both ends are free");
-    let path = outcome.path().expect("there is a way");
+    let answer = Anya::new(&space).solve(Ends::new((0, far), (far, far))).expect("both ends are free");
+    let path = answer.path().expect("there is a way");
     // Two bends at each of the 512 walls, but one at the last.
     assert_eq!(path.waypoints().len(), 2 + 2 * 512 - 1);
     let (first, between, last) = (4.0_f64.hypot(4095.0), 7.0_f64.hypot(4094.0), 4.0_f64.hypot(1.0));

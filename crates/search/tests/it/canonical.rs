@@ -9,22 +9,22 @@ use mediant_grid::{
 use mediant_moves::FiniteK;
 use mediant_oracle::{Case, Explicit, Rng, adversarial, describe, is_gap, seeds, validate};
 use mediant_search::{
-    AStar, BlockJps, Canonical, CanonicalRule, Counters, Hk, Jps, JpsPlus, JumpTable, NodeEvent, Observer,
-    Outcome, PaperCanonical, Planner, Pruning, Query, QueryError, Zero,
+    AStar, Answer, BlockJps, Canonical, CanonicalRule, Counters, Ends, Hk, Jps, JpsPlus, JumpTable,
+    NodeEvent, Observer, PaperCanonical, Planner, Pruning, QueryError, Zero,
 };
 
 fn grid_graph<P: Placement>(grid: &Arc<Grid>, k: u32, rule: P::Rule) -> GridGraph<P> {
     GridGraph::new(Arc::clone(grid), FiniteK::new(k).unwrap(), rule).unwrap()
 }
 
-fn drawn(drawing: &str) -> (Arc<Grid>, Query) {
+fn drawn(drawing: &str) -> (Arc<Grid>, Ends) {
     let map = AsciiMap::parse(drawing).unwrap();
-    let query = Query::new(map.mark('s').unwrap(), map.mark('g').unwrap());
+    let query = Ends::new(map.mark('s').unwrap(), map.mark('g').unwrap());
     (Arc::new(map.grid), query)
 }
 
-fn cost(outcome: &Result<Outcome, QueryError>) -> Option<f64> {
-    outcome.as_ref().unwrap().path().map(|path| path.cost())
+fn cost(answer: &Result<Answer, QueryError>) -> Option<f64> {
+    answer.as_ref().unwrap().path().map(|path| path.cost())
 }
 
 fn center_costs(drawing: &str, k: u32, corners: CornerRule) -> [Option<f64>; 2] {
@@ -47,9 +47,9 @@ fn the_published_rule_misses_what_the_exact_one_finds() {
         ",
     );
     let grid_graph = grid_graph::<Centers>(&grid, 4, CornerRule::Never);
-    let outcome = Canonical::new(&grid_graph, Hk).solve(query).unwrap();
-    assert_eq!(outcome.path().unwrap().waypoints(), [(0, 0), (1, 0), (3, 1)].map(Vertex::from));
-    assert_eq!(outcome.path().unwrap().cost(), 1.0 + 5.0_f64.sqrt());
+    let answer = Canonical::new(&grid_graph, Hk).solve(query).unwrap();
+    assert_eq!(answer.path().unwrap().waypoints(), [(0, 0), (1, 0), (3, 1)].map(Vertex::from));
+    assert_eq!(answer.path().unwrap().cost(), 1.0 + 5.0_f64.sqrt());
 
     // The best path turns where no obstacle is near.
     let drawing = "
@@ -123,7 +123,7 @@ fn births<P: Placement>(k: u32, rule: P::Rule) -> (Births, i32, GridGraph<P>) {
     let grid = Arc::new(Grid::from_fn(side as u32, side as u32, |_, _| false).unwrap());
     let grid_graph = grid_graph::<P>(&grid, k, rule);
     let (mut births, last) = (Births::default(), side - 1);
-    let query = Query::new((side / 2, side / 2), (last, last));
+    let query = Ends::new((side / 2, side / 2), (last, last));
     Canonical::new(&grid_graph, Zero).solve_observed(query, &mut births).unwrap();
     (births, side / 2, grid_graph)
 }
@@ -197,8 +197,8 @@ type Found = (Option<f64>, Counters);
 
 fn solve(mut planner: impl Planner, case: &Case) -> Found {
     let mut counters = Counters::default();
-    let outcome = planner.solve_observed(Query::new(case.start, case.goal), &mut counters);
-    (cost(&outcome), counters)
+    let answer = planner.solve_observed(Ends::new(case.start, case.goal), &mut counters);
+    (cost(&answer), counters)
 }
 
 /// The answers of A*, of the exact variant and of the published one.
@@ -293,19 +293,19 @@ fn closed_gaps(k: u32, seeds: std::ops::Range<u64>) -> HashMap<[bool; 2], u32> {
         for &start in &ends {
             let costs = graph.costs_from(start);
             for &goal in &ends {
-                let query = Query::new(start, goal);
-                let outcomes = [
+                let query = Ends::new(start, goal);
+                let answers = [
                     Some(canonical.solve(query)),
                     Some(jps.solve(query)),
                     blocks.as_mut().map(|planner| planner.solve(query)),
                     plus.as_mut().map(|planner| planner.solve(query)),
                 ];
                 let names = ["canonical", "jps", "jps-block", "jps-plus"];
-                for (outcome, name) in outcomes.into_iter().zip(names) {
-                    let Some(outcome) = outcome.transpose().unwrap() else { continue };
+                for (answer, name) in answers.into_iter().zip(names) {
+                    let Some(answer) = answer.transpose().unwrap() else { continue };
                     let case = || format!("{name}, k = {k}; {}", describe(&grid, rules, start, goal, seed));
                     let best = costs.to(goal);
-                    let path = outcome.path();
+                    let path = answer.path();
                     assert_eq!(path.is_some(), best.is_some(), "{}", case());
                     let (Some(path), Some(best)) = (path, best) else { continue };
                     let points = path.waypoints();
@@ -354,9 +354,9 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     ",
     );
     let grid_graph = grid_graph::<Corners>(&grid, 2, DiagonalGap::Closed);
-    let check = |outcome: Result<Outcome, QueryError>| {
-        let outcome = outcome.unwrap();
-        let path = outcome.path().unwrap();
+    let check = |answer: Result<Answer, QueryError>| {
+        let answer = answer.unwrap();
+        let path = answer.path().unwrap();
         let (start, goal) = (query.start, query.goal);
         let k = FiniteK::new(2).ok();
         assert_eq!(

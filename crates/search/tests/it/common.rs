@@ -5,10 +5,10 @@ use std::sync::Arc;
 use mediant::{Engine, Map, Motion, Planner, Setup, Space, options::Variant};
 use mediant_grid::{DiagonalGap, Grid, Rules};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Counters, Guarantee, Outcome, Query, QueryError};
+use mediant_search::{Answer, Counters, Ends, Guarantee, QueryError};
 
 /// The answer of an engine to a query.
-pub(crate) type Answer = Result<(Outcome, Counters), QueryError>;
+pub(crate) type CountedAnswer = Result<(Answer, Counters), QueryError>;
 
 /// An engine on one search space, for any number of queries. Its planner is made at the first one, since most
 /// suites run few engines.
@@ -39,7 +39,7 @@ impl<'g> TestedEngine<'g> {
         Self { name, guarantee, paths, may_give_up, is_prepared, planner: None, setup, space }
     }
 
-    pub(crate) fn solve(&mut self, query: Query) -> Answer {
+    pub(crate) fn solve(&mut self, query: Ends) -> CountedAnswer {
         let Self { setup, space, .. } = *self;
         let make = || {
             let index = setup.prepare(space).unwrap_or_else(|error| panic!("{setup}: {error}"));

@@ -8,7 +8,7 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
 use mediant_search::{
-    AStar, Counters, Hk, NodeEvent, Observer, Outcome, Planner, Query,
+    AStar, Answer, Counters, Ends, Hk, NodeEvent, Observer, Planner,
     parts::{Entry, OpenList},
 };
 
@@ -62,7 +62,7 @@ fn events_on_a_small_map() {
         .#.g
     ";
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
-    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let query = Ends::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let k = FiniteK::new(4).expect("k is at least 2");
     let grid_graph =
         GridGraph::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never).expect("k is in range");
@@ -92,14 +92,14 @@ fn events_on_a_small_map() {
 #[test]
 fn a_trait_object_watches_a_search() {
     let map = AsciiMap::parse("s..\n.#.\n..g").expect("the drawing is a map");
-    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let query = Ends::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let grid_graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never);
     let grid_graph = grid_graph.expect("k is in range");
     let (mut expected, mut found) = (Counters::default(), Counters::default());
     let mut planner = AStar::new(&grid_graph, Hk);
-    let outcome = planner.solve_observed(query, &mut expected).expect("both ends are free");
+    let answer = planner.solve_observed(query, &mut expected).expect("both ends are free");
     let mut observer: &mut dyn Observer = &mut found;
-    assert_eq!(planner.solve_observed(query, &mut observer), Ok(outcome));
+    assert_eq!(planner.solve_observed(query, &mut observer), Ok(answer));
     assert_eq!(found, expected);
     assert!(expected.expanded > 0 && expected.generated > 0);
 }
@@ -174,10 +174,10 @@ fn replay<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64) 
     let mut swaps_by_decreases = 0;
     for (start, goal) in (0..4).filter_map(|_| Some((free()?, free()?))).collect::<Vec<_>>() {
         let case = || format!("k = {k}; {}", describe(grid, grid_graph.rules(), start, goal, seed));
-        let (query, mut log, mut counters) = (Query::new(start, goal), Log::default(), Counters::default());
-        let outcome = planner.solve_observed(query, &mut log).expect("both ends are free");
-        assert_eq!(planner.solve_observed(query, &mut counters).as_ref(), Ok(&outcome), "{}", case());
-        let Outcome::Found(path) = outcome else {
+        let (query, mut log, mut counters) = (Ends::new(start, goal), Log::default(), Counters::default());
+        let answer = planner.solve_observed(query, &mut log).expect("both ends are free");
+        assert_eq!(planner.solve_observed(query, &mut counters).as_ref(), Ok(&answer), "{}", case());
+        let Answer::Found(path) = answer else {
             assert_eq!((log.0.len(), counters), (0, Counters::default()), "{}", case());
             continue;
         };

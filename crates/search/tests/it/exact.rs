@@ -9,7 +9,7 @@ use mediant_oracle::{
     Explicit, Rng, describe, is_exhaustive, maps_of_nine_cells, on_all_cores, random_free_vertex, suite_grid,
     validate,
 };
-use mediant_search::{Counters, Guarantee, Outcome, Path, Query, QueryError};
+use mediant_search::{Answer, Counters, Ends, Guarantee, Path, QueryError};
 
 use crate::common::{TestedEngine, with_any_angle_engines, with_engines};
 
@@ -90,22 +90,22 @@ impl Case<'_> {
     /// is no path.
     fn check(&self, engine: &mut TestedEngine<'_>) -> Option<Found> {
         let Self { grid, rules, start, goal, seed, .. } = *self;
-        let answer = engine.solve(Query::new(start, goal));
+        let answer = engine.solve(Ends::new(start, goal));
         let case = || format!("{}; {}", engine.name, describe(grid, rules, start, goal, seed));
-        let (outcome, counters) = match answer {
+        let (answer, counters) = match answer {
             Ok(answer) => answer,
             Err(QueryError::GaveUp { .. }) if engine.may_give_up && self.optimum.is_some() => {
                 return Some(Found::GaveUp);
             }
             Err(error) => panic!("{error}: {}", case()),
         };
-        let cost = outcome.path().map(Path::cost);
+        let cost = answer.path().map(Path::cost);
         assert!(!cost.is_some_and(f64::is_sign_negative), "cost {cost:?}: {}", case());
         // At k = 2 where corners are always cut, segments connect more than moves.
         let is_of_segments = ["theta", "lazy-theta"].iter().any(|name| engine.name.starts_with(name));
         let best = if is_of_segments { self.any_angle } else { self.optimum };
         assert_eq!(cost.is_some(), best.is_some(), "{cost:?}, Dijkstra {best:?}: {}", case());
-        let Outcome::Found(path) = outcome else {
+        let Answer::Found(path) = answer else {
             // The components know without a search.
             assert_eq!(counters, Counters::default(), "{}", case());
             return None;
@@ -252,9 +252,9 @@ fn costs_fall_with_k_and_stay_within_the_bound() {
             for k in 2..=8 {
                 with_engines(&grid, rules, k, |mut engines| {
                     for (start, goal, best, last) in &mut cases {
-                        let answer = engines[0].solve(Query::new(*start, *goal));
-                        let (outcome, _) = answer.expect("both ends are free");
-                        let cost = outcome.path().map_or(f64::INFINITY, Path::cost);
+                        let answer = engines[0].solve(Ends::new(*start, *goal));
+                        let (answer, _) = answer.expect("both ends are free");
+                        let cost = answer.path().map_or(f64::INFINITY, Path::cost);
                         // Not as a product where there is no bound: the optimum may be 0.
                         let limit =
                             if bound(rules, k).is_finite() { *best * bound(rules, k) } else { f64::INFINITY };

@@ -19,8 +19,8 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::describe;
 use mediant_search::{
-    BlockJps, Canonical, CanonicalRule, Dijkstra, FieldQuery, Fields, Guarantee, Hk, Jps, JpsPlus, JumpTable,
-    Outcome, Path, Planner, Pruning, Query, Zero,
+    Answer, BlockJps, Canonical, CanonicalRule, Dijkstra, Ends, FieldQuery, Fields, Guarantee, Hk, Jps,
+    JpsPlus, JumpTable, Path, Planner, Pruning, Zero,
     parts::{BlockFinder, StepwiseFinder},
 };
 
@@ -71,8 +71,8 @@ impl<'g, P: Placement> Judge<'g, P> {
         let mut judge = Self { grid_graph, map, vertices, legal, distances: Vec::new(), compared: 0 };
         let mut dijkstra = Dijkstra::new(grid_graph, Zero);
         let mut distance = |start, goal| {
-            let outcome = dijkstra.solve(Query::new(start, goal)).unwrap();
-            outcome.path().map(|path| judge.cost(path, start, goal).unwrap())
+            let answer = dijkstra.solve(Ends::new(start, goal)).unwrap();
+            answer.path().map(|path| judge.cost(path, start, goal).unwrap())
         };
         let from = |&start: &Vertex| judge.vertices.iter().map(|&goal| distance(start, goal)).collect();
         judge.distances = judge.vertices.iter().map(from).collect();
@@ -100,14 +100,14 @@ impl<'g, P: Placement> Judge<'g, P> {
         assert_eq!(planner.guarantee(), Guarantee::Optimal(k), "{name}");
         for (&start, distances) in self.vertices.iter().zip(&self.distances) {
             for (&goal, &distance) in self.vertices.iter().zip(distances) {
-                let outcome = planner.solve(Query::new(start, goal)).unwrap();
-                let found = match &outcome {
-                    Outcome::Found(path) => Some(self.cost(path, start, goal)),
+                let answer = planner.solve(Ends::new(start, goal)).unwrap();
+                let found = match &answer {
+                    Answer::Found(path) => Some(self.cost(path, start, goal)),
                     _ => None,
                 };
                 assert!(
                     found == distance.map(Ok),
-                    "{name}, k = {k}: {outcome:?} costs {found:?}, Dijkstra {distance:?}; {}",
+                    "{name}, k = {k}: {answer:?} costs {found:?}, Dijkstra {distance:?}; {}",
                     describe(self.grid_graph.grid(), self.grid_graph.rules(), start, goal, self.map)
                 );
                 self.compared += 1;

@@ -10,7 +10,7 @@ use mediant_grid::{
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, CanonicalRule, End, Field, FieldError, FieldQuery, Fields, Hk, Path, Planner, Pruning, Query,
+    AStar, CanonicalRule, End, Ends, Field, FieldError, FieldQuery, Fields, Hk, Path, Planner, Pruning,
     QueryError,
 };
 
@@ -78,8 +78,8 @@ fn check<P: Placement>(
         assert_eq!(field.identity(), graph.identity());
         sums[0] += check_field(&field, &oracle, &sources, &case);
         let best = sources.iter().filter_map(|&source| {
-            let outcome = astar.solve(Query::new(far, source)).unwrap();
-            outcome.into_path().map(|path| path.cost())
+            let answer = astar.solve(Ends::new(far, source)).unwrap();
+            answer.into_path().map(|path| path.cost())
         });
         let (best, found) = (best.min_by(f64::total_cmp), field.path_from(far));
         let found = found.as_ref().map(Path::cost);
@@ -216,7 +216,7 @@ fn a_limit_includes_what_lies_exactly_there() {
         let from = Vertex::new(0, 0);
         let field = fields.field(FieldQuery::new(&[from])).unwrap();
         for (at, cost) in field.iter() {
-            let query = Query::new(from, at);
+            let query = Ends::new(from, at);
             let length = astar.solve(query).unwrap().cost().unwrap();
             for limit in [length, cost.to_f64(), astar.distance(query).unwrap().unwrap()] {
                 let range = fields.field(FieldQuery::new(&[from]).within(limit)).unwrap();

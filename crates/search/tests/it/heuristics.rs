@@ -7,8 +7,8 @@ use mediant_grid::{Centers, Corners, DiagonalGap, Grid, GridGraph, Placement, Ru
 use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Explicit, Rng, describe, random_free_vertex, seeds, suite_grid, validate};
 use mediant_search::{
-    AStar, Counters, Euclidean, FieldQuery, Fields, Guarantee, Heuristic, Hk, NodeEvent, Observer, Outcome,
-    Planner, Query, SquaredEuclidean, Zero,
+    AStar, Answer, Counters, Ends, Euclidean, FieldQuery, Fields, Guarantee, Heuristic, Hk, NodeEvent,
+    Observer, Planner, SquaredEuclidean, Zero,
 };
 
 /// h_k at every other vertex, as on a checkerboard, and half of it at the others: a lower bound, but
@@ -62,8 +62,8 @@ fn reopened<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u64
     let mut reopened = 0;
     for (start, goal) in queries(grid, grid_graph.rules(), seed) {
         let mut log = Log::default();
-        let outcome = planner.solve_observed(Query::new(start, goal), &mut log);
-        let cost = outcome.expect("both ends are free").path().map(|path| path.cost());
+        let answer = planner.solve_observed(Ends::new(start, goal), &mut log);
+        let cost = answer.expect("both ends are free").path().map(|path| path.cost());
         let agrees = match (cost, graph.costs_from(start).to(goal)) {
             (Some(cost), Some(best)) => (cost - best).abs() <= best * 1e-9,
             (None, None) => true,
@@ -123,12 +123,12 @@ fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
     let mut seen = 0;
     for (start, goal) in queries(grid, grid_graph.rules(), seed) {
         let case = || format!("k = {k}; {}", describe(grid, grid_graph.rules(), start, goal, seed));
-        let (query, mut few, mut many) = (Query::new(start, goal), Counters::default(), Counters::default());
-        let outcome = guided.solve_observed(query, &mut few).expect("both ends are free");
+        let (query, mut few, mut many) = (Ends::new(start, goal), Counters::default(), Counters::default());
+        let answer = guided.solve_observed(query, &mut few).expect("both ends are free");
         blind.solve_observed(query, &mut many).expect("both ends are free");
         // Every vertex with f ≤ the optimum, except the goal, has a g below the optimum.
         assert!(few.expanded <= many.expanded, "{few:?}, {many:?}; {}", case());
-        let Outcome::Found(path) = outcome else { continue };
+        let Answer::Found(path) = answer else { continue };
         let mut rest = Cost::ZERO;
         let way = vertices(&grid_graph, path.waypoints());
         for (i, &at) in way.iter().enumerate().rev() {
@@ -197,15 +197,15 @@ fn check_squared<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed
     for (start, goal) in queries(grid, rules, seed) {
         let case = || format!("k = {k}; {}", describe(grid, rules, start, goal, seed));
         let mut log = Log::default();
-        let outcome = planner.solve_observed(Query::new(start, goal), &mut log).expect("both ends are free");
+        let answer = planner.solve_observed(Ends::new(start, goal), &mut log).expect("both ends are free");
         let best = graph.costs_from(start).to(goal);
-        assert_eq!(outcome.path().is_some(), best.is_some(), "{}", case());
+        assert_eq!(answer.path().is_some(), best.is_some(), "{}", case());
         for node in log.events {
             let d = node.at.to(goal);
             let h = Cost::from_bits(d.norm_squared() << Cost::FRACTION_BITS);
             assert_eq!(node.f, node.g + h, "{node:?}; {}", case());
         }
-        let (Outcome::Found(path), Some(best)) = (outcome, best) else { continue };
+        let (Answer::Found(path), Some(best)) = (answer, best) else { continue };
         let fault = validate(grid, rules, Some(k), start, goal, path.waypoints(), path.cost());
         assert_eq!(fault, Ok(()), "{}", case());
         assert!(path.cost() >= best * (1.0 - 1e-9), "{} < {best}; {}", path.cost(), case());
@@ -263,7 +263,7 @@ fn check_within<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
                 )
             };
             let is_within = best.is_some_and(|best| best <= limit);
-            let query = Query::new(start, goal);
+            let query = Ends::new(start, goal);
             let mut few = Counters::default();
             let answers = [
                 AStar::new(&grid_graph, Hk).solve_within(query, limit, &mut few),

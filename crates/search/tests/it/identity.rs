@@ -11,9 +11,8 @@ use mediant_grid::{
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, noise};
 use mediant_search::{
-    AStar, Anya, BlockJps, Canonical, CanonicalRule, DeadEnds, Dijkstra, Hk, Jps, JpsPlus, JumpError,
-    JumpTable, LazyThetaStar, PaperCanonical, Planner, Pruning, Query, Smoothed, Smoothing, ThetaStar,
-    Wavefront,
+    AStar, Anya, BlockJps, Canonical, CanonicalRule, DeadEnds, Dijkstra, Ends, Hk, Jps, JpsPlus, JumpError,
+    JumpTable, LazyThetaStar, PaperCanonical, Planner, Pruning, Smoothed, Smoothing, ThetaStar, Wavefront,
     parts::{BlockFinder, HasFreeSpace, JumpFinder, StepwiseFinder},
 };
 
@@ -72,7 +71,7 @@ struct Joined {
 
 /// The costs of some queries.
 fn costs(mut planner: impl Planner) -> Vec<Option<f64>> {
-    let queries = (0..40).map(|i| Query::new((i % 20, i % 14), Vertex::new(19 - i % 3, 13 - i % 7)));
+    let queries = (0..40).map(|i| Ends::new((i % 20, i % 14), Vertex::new(19 - i % 3, 13 - i % 7)));
     queries.map(|query| planner.solve(query).ok()?.path().map(|path| path.cost())).collect()
 }
 

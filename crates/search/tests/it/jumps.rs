@@ -9,7 +9,7 @@ use mediant_grid::{
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, noise, on_all_cores, random_free_vertex, seeds, sparse, validate};
 use mediant_search::{
-    AStar, BlockJps, Counters, Euclidean, Hk, Jps, JpsPlus, JumpTable, Outcome, Path, Planner, Query, Zero,
+    AStar, Answer, BlockJps, Counters, Ends, Euclidean, Hk, Jps, JpsPlus, JumpTable, Path, Planner, Zero,
 };
 
 /// Open ground behind a wall, or with a few cells blocked anywhere; sides of up to 130 cells, so that jumps
@@ -51,17 +51,17 @@ fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) -> [u64; 3] {
         let rng = &mut Rng::new(seed ^ 0x0DD);
         for _ in 0..4 {
             let mut free = || random_free_vertex(rng, grid, P::KIND).unwrap();
-            let query = Query::new(free(), free());
+            let query = Ends::new(free(), free());
             let expected = astar.solve(query).unwrap();
             // Paths of the same cost have other segments, whose lengths are rounded otherwise.
-            let cost = |outcome: &Outcome| outcome.path().map(|path| (path.cost() * 1e9).round());
+            let cost = |answer: &Answer| answer.path().map(|path| (path.cost() * 1e9).round());
             let case = |name: &str| {
                 format!("{name}, k = {k}, {}", describe(grid, P::rules(rule), query.start, query.goal, seed))
             };
             for (name, planner) in &mut planners {
-                let (outcome, expanded) = planner.counted(query);
-                assert_eq!(cost(&outcome), cost(&expected), "{}", case(name));
-                if let Some(path) = outcome.path() {
+                let (answer, expanded) = planner.counted(query);
+                assert_eq!(cost(&answer), cost(&expected), "{}", case(name));
+                if let Some(path) = answer.path() {
                     let (rules, k) = (P::rules(rule), Some(graph.k()));
                     let (start, goal) = (query.start, query.goal);
                     let fault = validate(grid, rules, k, start, goal, path.waypoints(), path.cost());
@@ -78,15 +78,15 @@ fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) -> [u64; 3] {
 
 /// A planner of any type.
 trait Solve {
-    /// The outcome, and the number of expansions.
-    fn counted(&mut self, query: Query) -> (Outcome, u64);
+    /// The answer, and the number of expansions.
+    fn counted(&mut self, query: Ends) -> (Answer, u64);
 }
 
 impl<T: Planner> Solve for T {
-    fn counted(&mut self, query: Query) -> (Outcome, u64) {
+    fn counted(&mut self, query: Ends) -> (Answer, u64) {
         let mut counters = Counters::default();
-        let outcome = self.solve_observed(query, &mut counters).unwrap();
-        (outcome, counters.expanded)
+        let answer = self.solve_observed(query, &mut counters).unwrap();
+        (answer, counters.expanded)
     }
 }
 
@@ -107,8 +107,8 @@ fn cut_jumps_lose_no_optimum() {
     assert!(5 * pruned < 4 * kept, "{pruned} expansions, {kept} with intermediate jump points");
 }
 
-/// The searches of one planner on a map, moved by (`x`, `y`): their outcomes and expansions.
-fn searches<P: Placement>(grid: Grid, rule: P::Rule, (x, y): (i32, i32), seed: u64) -> Vec<(Outcome, u64)> {
+/// The searches of one planner on a map, moved by (`x`, `y`): their answers and expansions.
+fn searches<P: Placement>(grid: Grid, rule: P::Rule, (x, y): (i32, i32), seed: u64) -> Vec<(Answer, u64)> {
     let by = Vector::new(x, y);
     let graph = &GridGraph::<P>::new(Arc::new(grid), FiniteK::N8, rule).unwrap();
     let mut planner = Jps::new(graph, Hk);
@@ -116,14 +116,14 @@ fn searches<P: Placement>(grid: Grid, rule: P::Rule, (x, y): (i32, i32), seed: u
     let mut any = || Vertex::new(rng.below(120) as i32, rng.below(120) as i32);
     let queries = (0..40).map(|_| (any(), any()));
     let free = queries.filter(|&(start, goal)| graph.is_free(start + by) && graph.is_free(goal + by));
-    let moved_back = |outcome: Outcome| match outcome {
-        Outcome::Found(path) => {
-            Outcome::Found(Path::new(path.waypoints().iter().map(|&at| at + -by).collect()))
+    let moved_back = |answer: Answer| match answer {
+        Answer::Found(path) => {
+            Answer::Found(Path::new(path.waypoints().iter().map(|&at| at + -by).collect()))
         }
         other => other,
     };
-    free.map(|(start, goal)| planner.counted(Query::new(start + by, goal + by)))
-        .map(|(outcome, expanded)| (moved_back(outcome), expanded))
+    free.map(|(start, goal)| planner.counted(Ends::new(start + by, goal + by)))
+        .map(|(answer, expanded)| (moved_back(answer), expanded))
         .collect()
 }
 
@@ -175,10 +175,10 @@ fn a_goal_in_sight_is_found_at_once() {
                 continue;
             }
             for engine in &mut engines {
-                let (outcome, expanded) = engine.counted(Query::new(start, goal));
+                let (answer, expanded) = engine.counted(Ends::new(start, goal));
                 let case = || describe(&grid, Rules::Center(CornerRule::Never), start, goal, seed);
                 let least = graph.costs().distance(start.to(goal)).to_f64();
-                let cost = outcome.path().map_or(f64::INFINITY, |path| path.cost());
+                let cost = answer.path().map_or(f64::INFINITY, |path| path.cost());
                 assert!((cost - least).abs() < 1e-8, "{cost} instead of {least}, {}", case());
                 assert_eq!(expanded, 1, "{}", case());
             }

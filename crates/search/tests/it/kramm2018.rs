@@ -9,7 +9,7 @@ use std::sync::Arc;
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Grid, Rules, Vertex};
 use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, FiniteK, bound_at_centers};
 use mediant_oracle::{Explicit, Rng, describe, noise};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 use crate::common::with_engines;
 
@@ -53,8 +53,8 @@ impl Instance {
         with_engines(&self.grid, rules, k, |mut engines| {
             for (&start, best) in self.free.iter().zip(&self.best) {
                 for (&goal, &best) in self.free.iter().zip(best).filter(|&(&goal, _)| goal != start) {
-                    let (outcome, _) = engines[0].solve(Query::new(start, goal)).expect("both ends are free");
-                    let cost = outcome.path().map_or(f64::INFINITY, |path| path.cost());
+                    let (answer, _) = engines[0].solve(Ends::new(start, goal)).expect("both ends are free");
+                    let cost = answer.path().map_or(f64::INFINITY, |path| path.cost());
                     let best = best.unwrap_or(f64::INFINITY);
                     assert!(cost * SLACK >= best, "k = {k}: {cost} < {best}; {}", self.describe(start, goal));
                     if best.is_finite() {

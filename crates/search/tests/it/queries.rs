@@ -5,8 +5,8 @@ use std::sync::Arc;
 use mediant_grid::{AsciiMap, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Rules, Vertex};
 use mediant_moves::FiniteK;
 use mediant_search::{
-    AStar, Anya, Canonical, End, Hk, Jps, LazyThetaStar, PaperCanonical, Planner, Query, QueryError, Status,
-    ThetaStar, Wavefront,
+    AStar, Anya, Canonical, End, Ends, Hk, Jps, LazyThetaStar, PaperCanonical, Planner, QueryError,
+    SearchStatus, ThetaStar, Wavefront,
 };
 
 use crate::common::with_engines;
@@ -17,7 +17,7 @@ const CORNERS: Rules = Rules::Corner(DiagonalGap::Open);
 /// The error of a query, the same for every engine.
 fn error(grid: &Arc<Grid>, rules: Rules, start: (i32, i32), goal: (i32, i32)) -> Option<QueryError> {
     with_engines(grid, rules, 3, |mut engines| {
-        let query = Query::new(start, goal);
+        let query = Ends::new(start, goal);
         let errors: Vec<_> = engines.iter_mut().map(|engine| engine.solve(query).err()).collect();
         assert!(errors.windows(2).all(|pair| pair[0] == pair[1]), "{errors:?}");
         errors[0]
@@ -93,10 +93,10 @@ fn errors_say_what_to_do() {
 
 /// After a query without an answer a planner knows no path, also not those of the query before.
 fn check_forgotten(planner: &mut impl Planner) {
-    let found = planner.solve(Query::new((0, 0), (2, 2)));
-    assert!(found.is_ok_and(|outcome| outcome.path().is_some()));
+    let found = planner.solve(Ends::new((0, 0), (2, 2)));
+    assert!(found.is_ok_and(|answer| answer.path().is_some()));
     assert!(planner.path_to((2, 2).into()).is_some());
-    assert_eq!(planner.begin(Query::new((0, 0), (5, 2)), &mut ()), Ok(Status::Unreachable));
+    assert_eq!(planner.begin(Ends::new((0, 0), (5, 2)), &mut ()), Ok(SearchStatus::Unreachable));
     for at in [(0, 0), (2, 2), (1, 1), (5, 2), (9, 9)] {
         assert_eq!(planner.path_to(at.into()), None, "{at:?}");
     }

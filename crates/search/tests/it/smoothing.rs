@@ -11,7 +11,7 @@ use mediant_oracle::{
     Explicit, Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid, turn_is_legal, validate,
 };
 use mediant_search::{
-    AStar, Counters, Guarantee, Hk, Outcome, Path, Planner, Query, Smoothed, Smoothing, ThetaStar, pull_taut,
+    AStar, Answer, Counters, Ends, Guarantee, Hk, Path, Planner, Smoothed, Smoothing, ThetaStar, pull_taut,
     smooth,
 };
 
@@ -169,14 +169,13 @@ fn check_map<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed: u6
     let (mut a_star, mut theta) = (AStar::new(&grid_graph, Hk), ThetaStar::new(&grid_graph, Hk));
     let mut rng = Rng::new(seed ^ 0x500);
     let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
-    let queries: Vec<Query> = (0..6).filter_map(|_| Some(Query::new(free()?, free()?))).collect();
+    let queries: Vec<Ends> = (0..6).filter_map(|_| Some(Ends::new(free()?, free()?))).collect();
     let mut shorter = [0; 2];
     for query in queries {
-        let outcomes = [a_star.solve(query), theta.solve(query)];
+        let answers = [a_star.solve(query), theta.solve(query)];
         let case =
             || format!("k = {k}; {}", describe(grid, grid_graph.rules(), query.start, query.goal, seed));
-        for path in outcomes.iter().filter_map(|outcome| outcome.as_ref().expect("both ends are free").path())
-        {
+        for path in answers.iter().filter_map(|answer| answer.as_ref().expect("both ends are free").path()) {
             let counts = check(&grid_graph, path, &case);
             shorter.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
         }
@@ -190,8 +189,8 @@ fn a_smoothed_path_has_waypoints_where_it_turns() {
     let map = AsciiMap::parse("#.\n..").expect("a map");
     let rule = DiagonalGap::Open;
     let graph = GridGraph::<Corners>::new(Arc::new(map.grid), FiniteK::N4, rule).expect("k is in range");
-    let outcome = AStar::new(&graph, Hk).solve(Query::new((2, 0), (0, 2))).expect("both ends are free");
-    let path = outcome.into_path().expect("there is one");
+    let answer = AStar::new(&graph, Hk).solve(Ends::new((2, 0), (0, 2))).expect("both ends are free");
+    let path = answer.into_path().expect("there is one");
     assert_eq!(smooth(&graph, path.waypoints()), [(2, 0), (0, 2)].map(Vertex::from));
 }
 
@@ -250,8 +249,8 @@ fn without_islands_a_taut_path_at_corners_is_optimal() {
                 for _ in 0..6 {
                     let mut free = || random_free_vertex(&mut rng, &grid, Corners::KIND);
                     let (Some(start), Some(goal)) = (free(), free()) else { continue };
-                    let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
-                    let (cost, best) = (outcome.path().map(Path::cost), any_angle.costs_from(start).to(goal));
+                    let answer = planner.solve(Ends::new(start, goal)).expect("both ends are free");
+                    let (cost, best) = (answer.path().map(Path::cost), any_angle.costs_from(start).to(goal));
                     let agrees = match (cost, best) {
                         (Some(cost), Some(best)) => (cost - best).abs() <= best * 1e-9,
                         (cost, best) => cost.is_none() && best.is_none(),
@@ -261,7 +260,7 @@ fn without_islands_a_taut_path_at_corners_is_optimal() {
                         "k = {k}: {cost:?}, {best:?}; {}",
                         describe(&grid, Rules::Corner(gap), start, goal, seed)
                     );
-                    bends += outcome.path().map_or(0, |path| path.waypoints().len().saturating_sub(2));
+                    bends += answer.path().map_or(0, |path| path.waypoints().len().saturating_sub(2));
                 }
             }
         }
@@ -404,7 +403,7 @@ fn planners_smooth_their_paths() {
     let grid_graph =
         Arc::new(GridGraph::<Corners>::new(Arc::clone(&grid), k, DiagonalGap::Open).expect("k is in range"));
     let space = Arc::new(FreeSpace::<Corners>::new(grid, DiagonalGap::Open));
-    let query = Query::new((2, 6), (8, 6));
+    let query = Ends::new((2, 6), (8, 6));
     let plain = AStar::new(&*grid_graph, Hk).solve(query).expect("both ends are free");
     let best = pull_taut(&space, plain.path().expect("a path").waypoints());
 
@@ -416,14 +415,14 @@ fn planners_smooth_their_paths() {
         .expect("the planner is of this space");
     assert_eq!(taut.guarantee(), Guarantee::AtMost(k));
     let mut counters = [Counters::default(); 2];
-    let outcome = taut.solve_observed(query, &mut counters[0]).expect("both ends are free");
-    assert_eq!(outcome, Outcome::Found(Path::new(best)));
+    let answer = taut.solve_observed(query, &mut counters[0]).expect("both ends are free");
+    assert_eq!(answer, Answer::Found(Path::new(best)));
     planner().solve_observed(query, &mut counters[1]).expect("both ends are free");
     assert_eq!(counters[0], counters[1]);
     assert!(counters[0].expanded > 0);
 
     // Errors and unreachable goals are passed on.
-    assert_eq!(taut.solve(Query::new((0, 0), (5, 4))), planner().solve(Query::new((0, 0), (5, 4))));
+    assert_eq!(taut.solve(Ends::new((0, 0), (5, 4))), planner().solve(Ends::new((0, 0), (5, 4))));
     let smoothed = Smoothed::new(ThetaStar::new(&*grid_graph, Hk), &*grid_graph, Some(Smoothing::Linear))
         .expect("the planner is of this space");
     assert_eq!(smoothed.guarantee(), Guarantee::Suboptimal);
@@ -441,8 +440,8 @@ fn check_bounds<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, k: FiniteK, seed:
             .expect("the planner is of this space");
         let mut free = || random_free_vertex(&mut rng, grid, P::KIND);
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
-        let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
-        let (Some(path), Some(best)) = (outcome.path(), any_angle.costs_from(start).to(goal)) else {
+        let answer = planner.solve(Ends::new(start, goal)).expect("both ends are free");
+        let (Some(path), Some(best)) = (answer.path(), any_angle.costs_from(start).to(goal)) else {
             continue;
         };
         let (guarantee, straight) = (planner.guarantee(), start.distance(goal));

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use mediant::{Engine, Map, Motion, Setup};
 use mediant_grid::{AsciiMap, CornerRule, DiagonalGap, Rules, draw};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{Outcome, Query, Smoothing};
+use mediant_search::{Answer, Ends, Smoothing};
 
 /// The picture of the best path from `s` to `g`, under its cost.
 fn picture(drawing: &str, rules: Rules, k: u32) -> String {
@@ -18,13 +18,13 @@ fn picture(drawing: &str, rules: Rules, k: u32) -> String {
 /// The same, by any engine, and smoothed.
 fn picture_by(engine: Engine, drawing: &str, rules: Rules, k: u32, smoothing: Option<Smoothing>) -> String {
     let map = AsciiMap::parse(drawing).expect("the drawing is a map");
-    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let query = Ends::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let k = if engine == Engine::Anya { K::Any } else { FiniteK::new(k).expect("k is at least 2").into() };
     let setup = Setup { smoothing, ..Setup::new(engine, Motion::new(k, rules)) };
     let grid = Arc::new(map.grid);
     let mut planner = setup.planner(&Map::from(Arc::clone(&grid))).expect("the engine takes this");
     match planner.find(query).expect("both ends are free") {
-        Outcome::Found(path) => {
+        Answer::Found(path) => {
             format!(
                 "k = {k}, {rules}: {:.4}\n{}",
                 path.cost(),

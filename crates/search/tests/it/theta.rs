@@ -12,8 +12,8 @@ use mediant_oracle::{
     validate,
 };
 use mediant_search::{
-    Counters, Euclidean, Guarantee, Heuristic, Hk, LazyThetaStar, NodeEvent, Observer, Outcome, Path,
-    Planner, Query, ThetaStar, Zero,
+    Answer, Counters, Ends, Euclidean, Guarantee, Heuristic, Hk, LazyThetaStar, NodeEvent, Observer, Path,
+    Planner, ThetaStar, Zero,
     parts::{Eager, Lazy, SightCheck, Theta},
 };
 
@@ -50,17 +50,17 @@ fn check<P: Placement, H: Heuristic + Debug, S: SightCheck>(
                 describe(grid, rules, start, goal, expected.seed)
             )
         };
-        let query = Query::new(start, goal);
+        let query = Ends::new(start, goal);
         let solve = |planner: &mut Theta<_, H, S>| {
             let mut counters = Counters::default();
-            let outcome = planner.solve_observed(query, &mut counters).expect("both ends are free");
-            (outcome, counters)
+            let answer = planner.solve_observed(query, &mut counters).expect("both ends are free");
+            (answer, counters)
         };
-        let (outcome, counters) = solve(&mut planner);
-        assert_eq!((&outcome, counters), (&solve(&mut Theta::new(grid_graph, h)).0, counters), "{}", case());
-        assert_eq!((&outcome, counters), (&solve(&mut planner).0, counters), "{}", case());
-        assert_eq!(outcome.path().is_some(), expected.is_reachable, "{}", case());
-        let Outcome::Found(path) = outcome else {
+        let (answer, counters) = solve(&mut planner);
+        assert_eq!((&answer, counters), (&solve(&mut Theta::new(grid_graph, h)).0, counters), "{}", case());
+        assert_eq!((&answer, counters), (&solve(&mut planner).0, counters), "{}", case());
+        assert_eq!(answer.path().is_some(), expected.is_reachable, "{}", case());
+        let Answer::Found(path) = answer else {
             assert_eq!(counters, Counters::default(), "{}", case());
             continue;
         };
@@ -195,7 +195,7 @@ fn check_paths(
     expected: [&[(i32, i32)]; 2],
 ) {
     let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
-    let (query, k) = (Query::new(start, goal), FiniteK::new(k).expect("k is at least 2"));
+    let (query, k) = (Ends::new(start, goal), FiniteK::new(k).expect("k is at least 2"));
     let paths = match rules {
         Rules::Center(corners) => paths::<Centers>(grid, k, corners, query),
         Rules::Corner(gap) => paths::<Corners>(grid, k, gap, query),
@@ -204,12 +204,12 @@ fn check_paths(
     assert_eq!(paths, expected, "k = {k}, {rules}");
 }
 
-fn paths<P: Placement>(grid: Arc<Grid>, k: FiniteK, rule: P::Rule, query: Query) -> [Vec<Vertex>; 2] {
+fn paths<P: Placement>(grid: Arc<Grid>, k: FiniteK, rule: P::Rule, query: Ends) -> [Vec<Vertex>; 2] {
     let grid_graph = GridGraph::<P>::new(grid, k, rule).expect("k is in range");
     let eager = ThetaStar::new(&grid_graph, Hk).solve(query);
     let lazy = LazyThetaStar::new(&grid_graph, Hk).solve(query);
-    [eager, lazy].map(|outcome| match outcome.expect("both ends are free") {
-        Outcome::Found(path) => path.into_waypoints(),
+    [eager, lazy].map(|answer| match answer.expect("both ends are free") {
+        Answer::Found(path) => path.into_waypoints(),
         _ => Vec::new(),
     })
 }
@@ -315,8 +315,8 @@ fn nothing_hangs_through_a_closed_gap() {
         let grid = Arc::new(AsciiMap::parse(drawing).expect("the drawing is a map").grid);
         let k = FiniteK::new(k).expect("k is at least 2");
         let grid_graph = GridGraph::<Corners>::new(grid, k, DiagonalGap::Closed).expect("k is in range");
-        let (query, expected) = (Query::new(start, goal), expected.iter().map(|&at| at.into()));
-        let expected = Ok(Outcome::Found(Path::new(expected.collect())));
+        let (query, expected) = (Ends::new(start, goal), expected.iter().map(|&at| at.into()));
+        let expected = Ok(Answer::Found(Path::new(expected.collect())));
         assert_eq!(ThetaStar::new(&grid_graph, Zero).solve(query), expected);
         assert_eq!(LazyThetaStar::new(&grid_graph, Zero).solve(query), expected);
     };
@@ -391,7 +391,7 @@ fn events<S: SightCheck>() -> Vec<String> {
         GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never).expect("k is in range");
     let (mut log, mut counters) = (Log::default(), Counters::default());
     let mut planner = Theta::<_, _, S>::new(&grid_graph, Hk);
-    let query = Query::new((0, 0), (3, 1));
+    let query = Ends::new((0, 0), (3, 1));
     planner.solve_observed(query, &mut log).expect("both ends are free");
     planner.solve_observed(query, &mut counters).expect("both ends are free");
     let count = |word| log.0.iter().filter(|line| line.starts_with(word)).count() as u64;

@@ -13,7 +13,7 @@ use mediant_oracle::{
     turn_is_legal, validate, vertex_is_free,
 };
 use mediant_search::{
-    Counters, Distances, End, Guarantee, Outcome, Path, Planner, Query, QueryError, Wavefront,
+    Answer, Counters, Distances, End, Ends, Guarantee, Path, Planner, QueryError, Wavefront,
 };
 
 /// All legal moves of a map, for a plain breadth-first search.
@@ -83,7 +83,7 @@ impl<'g> Graph<'g> {
 /// the same planner.
 trait Waves {
     fn distances(&mut self, start: Vertex) -> Result<Distances<u32>, QueryError>;
-    fn answer(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError>;
+    fn answer(&mut self, query: Ends) -> Result<(Answer, Counters), QueryError>;
     fn promise(&self) -> Guarantee;
 }
 
@@ -92,7 +92,7 @@ impl<P: Placement> Waves for Wavefront<SharedGraph<P>> {
         Wavefront::distances(self, start)
     }
 
-    fn answer(&mut self, query: Query) -> Result<(Outcome, Counters), QueryError> {
+    fn answer(&mut self, query: Ends) -> Result<(Answer, Counters), QueryError> {
         let mut counters = Counters::default();
         Ok((self.solve_observed(query, &mut counters)?, counters))
     }
@@ -150,21 +150,21 @@ fn check_distances(
     known.len()
 }
 
-fn check_path(waves: &mut dyn Waves, graph: &Graph<'_>, query: Query, case: &dyn Fn() -> String) {
+fn check_path(waves: &mut dyn Waves, graph: &Graph<'_>, query: Ends, case: &dyn Fn() -> String) {
     let k = graph.k;
-    let (outcome, counters) = waves.answer(query).unwrap_or_else(|error| panic!("{error}; {}", case()));
+    let (answer, counters) = waves.answer(query).unwrap_or_else(|error| panic!("{error}; {}", case()));
     let expected = graph.moves_from(query.start)[graph.index(query.goal)];
-    assert_eq!(outcome.path().map(moves_of), expected, "{}", case());
-    let Some(path) = outcome.path() else {
+    assert_eq!(answer.path().map(moves_of), expected, "{}", case());
+    let Some(path) = answer.path() else {
         assert_eq!(counters, Counters::default(), "the components know without a search; {}", case());
         return;
     };
-    let Query { start, goal, .. } = query;
+    let Ends { start, goal, .. } = query;
     let fault = validate(graph.grid, graph.rules, Some(k), start, goal, path.waypoints(), path.cost());
     assert_eq!(fault, Ok(()), "{}", case());
     assert!(counters.expanded < counters.generated, "{counters:?}; {}", case());
     assert_eq!((counters.updated, counters.percolations), (0, 0), "{}", case());
-    assert_eq!(waves.answer(query), Ok((outcome.clone(), counters)), "the same again; {}", case());
+    assert_eq!(waves.answer(query), Ok((answer.clone(), counters)), "the same again; {}", case());
     assert_eq!(waves.promise() == Guarantee::Optimal(k), k == FiniteK::N4);
 }
 
@@ -183,7 +183,7 @@ fn moves_are_the_fewest_on_random_maps() {
                     let (Some(start), Some(goal)) = (free(), free()) else { continue };
                     let case = || format!("k = {k}; {}", describe(&grid, rules, start, goal, seed));
                     reached += check_distances(&mut *waves, &graph, start, &case);
-                    check_path(&mut *waves, &graph, Query::new(start, goal), &case);
+                    check_path(&mut *waves, &graph, Ends::new(start, goal), &case);
                     paths += 1;
                 }
             }
@@ -223,16 +223,16 @@ fn fewest_moves_may_pass_a_closed_gap() {
     let map = AsciiMap::parse("..#.\n#...\n.#..").unwrap();
     let (grid, rules) = (Arc::new(map.grid), Rules::Corner(DiagonalGap::Closed));
     let k = FiniteK::new(5).unwrap();
-    let query = Query::new((2, 0), (4, 1));
-    let (outcome, _) = waves(&grid, rules, k).answer(query).unwrap();
-    let path = outcome.into_path().unwrap();
+    let query = Ends::new((2, 0), (4, 1));
+    let (answer, _) = waves(&grid, rules, k).answer(query).unwrap();
+    let path = answer.into_path().unwrap();
     assert_eq!(path.waypoints(), [(2, 0), (1, 2), (4, 1)].map(Vertex::from));
     // No path leads to that gap, whose own cell is blocked; but the one that stays there.
     let gap = Vertex::new(1, 2);
     assert!(Graph::new(&grid, rules, k).is_closed_gap(gap));
-    let answer = |start: Vertex| waves(&grid, rules, k).answer(Query::new(start, gap)).unwrap().0;
-    assert_eq!(answer((2, 0).into()), Outcome::Unreachable);
-    assert_eq!(answer(gap), Outcome::Found(Path::new(vec![gap])));
+    let answer = |start: Vertex| waves(&grid, rules, k).answer(Ends::new(start, gap)).unwrap().0;
+    assert_eq!(answer((2, 0).into()), Answer::Unreachable);
+    assert_eq!(answer(gap), Answer::Found(Path::new(vec![gap])));
 }
 
 #[test]
@@ -241,8 +241,8 @@ fn ties_go_to_the_vertex_reached_first() {
     let path = |k: u32, goal: (i32, i32)| {
         let rules = Rules::Center(mediant_grid::CornerRule::Never);
         let mut waves = waves(&grid, rules, FiniteK::new(k).unwrap());
-        let (outcome, _) = waves.answer(Query::new((0, 0), goal)).unwrap();
-        outcome.path().unwrap().waypoints().iter().map(|at| (at.x, at.y)).collect::<Vec<_>>()
+        let (answer, _) = waves.answer(Ends::new((0, 0), goal)).unwrap();
+        answer.path().unwrap().waypoints().iter().map(|at| (at.x, at.y)).collect::<Vec<_>>()
     };
     // The first move is (0, 1), so the vertex to which it leads is expanded first.
     assert_eq!(path(2, (3, 2)), [(0, 0), (0, 2), (3, 2)]);

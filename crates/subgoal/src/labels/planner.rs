@@ -4,7 +4,9 @@ use std::ops::Deref;
 
 use mediant_grid::{Identity, Mismatch, PlacementKind, Vertex};
 use mediant_moves::{Cost, FiniteK, K};
-use mediant_search::{Guarantee, Observer, Path, Planner, Query, QueryError, Status, parts::HasFreeSpace};
+use mediant_search::{
+    Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus, parts::HasFreeSpace,
+};
 
 use super::{
     HubLabels,
@@ -36,7 +38,7 @@ pub struct HubLabelSearch<S, I> {
     waypoints: Vec<Vertex>,
     /// Scratch memory: the subgoals from the hub to the goal, in the other direction.
     chain: Vec<Vertex>,
-    answer: Option<(Query, AnswerForm)>,
+    answer: Option<(Ends, AnswerForm)>,
     to_many: ToMany,
     /// Scratch memory: the goals that are as near as the nearest one, up to rounding.
     as_near: Vec<(u32, Cost)>,
@@ -82,12 +84,12 @@ where
     ///
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
-    pub fn cost(&mut self, query: Query) -> Result<Option<Cost>, QueryError> {
+    pub fn cost(&mut self, query: Ends) -> Result<Option<Cost>, QueryError> {
         let (space, labels) = (self.space.free_space(), &*self.labels);
-        if query.ends(space)?.is_none() {
+        if query.ids(space)?.is_none() {
             return Ok(None);
         }
-        let Query { start, goal, .. } = query;
+        let Ends { start, goal, .. } = query;
         if start == goal {
             return Ok(Some(Cost::ZERO));
         }
@@ -133,7 +135,7 @@ where
     }
 
     /// The cost by which paths are compared, of the path that is not made.
-    fn exact_cost(&mut self, query: Query) -> Result<Cost, QueryError> {
+    fn exact_cost(&mut self, query: Ends) -> Result<Cost, QueryError> {
         self.begin(query, &mut ())?;
         match self.answer.take() {
             None => return Ok(Cost::MAX),
@@ -161,7 +163,7 @@ where
             if best.is_some_and(|(_, (first, _))| at(first) == at(goal)) {
                 continue;
             }
-            let exact = self.exact_cost(Query::new(start, at(goal)))?;
+            let exact = self.exact_cost(Ends::new(start, at(goal)))?;
             if best.is_none_or(|(least, _)| exact < least) {
                 best = Some((exact, (goal, cost)));
             }
@@ -170,7 +172,7 @@ where
     }
 
     /// Where the shortest path between connected ends turns; `None` if there is no path.
-    fn meeting(&mut self, Query { start, goal, .. }: Query) -> Result<Option<Meeting>, QueryError> {
+    fn meeting(&mut self, Ends { start, goal, .. }: Ends) -> Result<Option<Meeting>, QueryError> {
         let (space, labels) = (self.space.free_space(), &*self.labels);
         let meeting = self.join.meeting(labels, space, [start, goal]);
         // Cells that touch diagonally are connected, but N(2) may hold no path between them.
@@ -182,7 +184,7 @@ where
     }
 
     /// Writes the path over a meeting point to `waypoints`; `false` if the labels are damaged.
-    fn write(&mut self, Query { start, goal, .. }: Query, meeting: Meeting) -> bool {
+    fn write(&mut self, Ends { start, goal, .. }: Ends, meeting: Meeting) -> bool {
         let Self { space, labels, waypoints, chain, .. } = self;
         let (space, labels) = (space.free_space(), &**labels);
         let mut to = |at: Vertex| extend(waypoints, space, (labels.k, labels.criterion), at);
@@ -211,13 +213,13 @@ where
     S: Deref<Target: HasFreeSpace<Placement = P>>,
     I: Deref<Target = HubLabels<P>>,
 {
-    fn begin(&mut self, query: Query, _: &mut impl Observer) -> Result<Status, QueryError> {
+    fn begin(&mut self, query: Ends, _: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.answer = None;
         let (space, labels) = (self.space.free_space(), &*self.labels);
-        if query.ends(space)?.is_none() {
-            return Ok(Status::Unreachable);
+        if query.ids(space)?.is_none() {
+            return Ok(SearchStatus::Unreachable);
         }
-        let Query { start, goal, .. } = query;
+        let Ends { start, goal, .. } = query;
         let is_direct = if start == goal {
             self.waypoints.clear();
             self.waypoints.push(start);
@@ -228,11 +230,11 @@ where
         let answer =
             if is_direct { Some(AnswerForm::Direct) } else { self.meeting(query)?.map(AnswerForm::Over) };
         self.answer = answer.map(|answer| (query, answer));
-        Ok(if self.answer.is_some() { Status::Found } else { Status::Unreachable })
+        Ok(if self.answer.is_some() { SearchStatus::Found } else { SearchStatus::Unreachable })
     }
 
-    fn proceed(&mut self, _: &mut impl Observer) -> Result<Status, QueryError> {
-        Ok(if self.answer.is_some() { Status::Found } else { Status::Unreachable })
+    fn proceed(&mut self, _: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        Ok(if self.answer.is_some() { SearchStatus::Found } else { SearchStatus::Unreachable })
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
@@ -252,7 +254,7 @@ where
         Some(Path::new(self.waypoints.clone()))
     }
 
-    fn distance(&mut self, query: Query) -> Result<Option<f64>, QueryError> {
+    fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {
         Ok(self.cost(query)?.map(Cost::to_f64))
     }
 

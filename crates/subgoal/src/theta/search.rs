@@ -3,7 +3,7 @@
 use mediant_grid::{FreeSpace, Vertex};
 use mediant_moves::Cost;
 use mediant_search::{
-    NodeEvent, Observer, Status,
+    NodeEvent, Observer, SearchStatus,
     parts::{SearchTree, segment_cost},
 };
 
@@ -83,20 +83,20 @@ impl<P: SubgoalPlacement, O: Observer> SubgoalThetaSearch<'_, P, O> {
 
     /// Expands subgoals until the goal has the least f, none is open, or the observer pauses. Writes the last
     /// bend before the goal to `last`.
-    pub(super) fn run(&mut self, last: &mut Option<u32>) -> Status {
+    pub(super) fn run(&mut self, last: &mut Option<u32>) -> SearchStatus {
         loop {
             if let Some((f, _)) = self.tree.best().filter(|&(_, id)| id != self.goal_id())
                 && self.observer.pauses(f)
             {
-                return Status::Searching;
+                return SearchStatus::Searching;
             }
-            let Some((f, id, g, swaps)) = self.tree.pop() else { return Status::Unreachable };
+            let Some((f, id, g, swaps)) = self.tree.pop() else { return SearchStatus::Unreachable };
             self.observer.percolated(swaps);
-            let Some((bend, ())) = self.tree.parent(id) else { return Status::Unreachable };
+            let Some((bend, ())) = self.tree.parent(id) else { return SearchStatus::Unreachable };
             let at = self.vertex(id);
             if id == self.goal_id() {
                 *last = Some(bend);
-                return Status::Found;
+                return SearchStatus::Found;
             }
             let parent = Some(self.bends[bend as usize].at).filter(|&parent| parent != at);
             self.observer.expanded(NodeEvent { at, parent, g, f });

@@ -3,7 +3,7 @@
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid};
 use mediant_moves::K;
 use mediant_oracle::{Rng, noise, random_free_vertex};
-use mediant_search::{Path, Planner, Query};
+use mediant_search::{Ends, Path, Planner};
 use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalPlacement};
 
 use crate::common::{graph, k, levels, space};
@@ -45,9 +45,9 @@ fn costs_stay<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) {
     let mut found = 0;
     for _ in 0..30 {
         let mut end = || random_free_vertex(&mut rng, space.grid(), P::KIND).expect("there is a free vertex");
-        let query = Query::new(end(), end());
+        let query = Ends::new(end(), end());
         let [cost, expected] = [contracted.solve(query), flat.solve(query)]
-            .map(|outcome| outcome.expect("both ends are free").path().map(Path::cost));
+            .map(|answer| answer.expect("both ends are free").path().map(Path::cost));
         let gap = cost.zip(expected).map_or(0.0, |(cost, expected)| (cost - expected).abs());
         assert!(cost.is_some() == expected.is_some() && gap < 1e-6, "{cost:?}, {expected:?}: {query:?}, {k}");
         found += usize::from(cost.is_some());

@@ -7,7 +7,7 @@ use mediant_oracle::{
     Explicit, Rng, Visibility, describe, is_exhaustive, is_gap, maps_of_nine_cells, on_all_cores,
     random_free_vertex, seeds, suite_grid, validate, vertex_is_free,
 };
-use mediant_search::{Counters, Guarantee, Outcome, Path, Planner, Query};
+use mediant_search::{Answer, Counters, Ends, Guarantee, Path, Planner};
 use mediant_subgoal::{Hierarchy, SubgoalAStar, SubgoalGraph, SubgoalPlacement, SubgoalTheta};
 
 use crate::common::{GAPS, HIERARCHIES, all_ks, graph, k, space};
@@ -102,13 +102,13 @@ impl<'t, P: SubgoalPlacement> Suite<'t, P> {
         let Expected { start, goal, .. } = *expected;
         let mut solve = || {
             let mut counters = Counters::default();
-            let outcome = planner.solve_observed(Query::new(start, goal), &mut counters);
-            (outcome.expect("both ends are free"), counters)
+            let answer = planner.solve_observed(Ends::new(start, goal), &mut counters);
+            (answer.expect("both ends are free"), counters)
         };
-        let (outcome, counters) = solve();
-        assert_eq!(solve(), (outcome.clone(), counters), "asked again; {}", self.case(expected));
-        let cost = outcome.path().map(Path::cost);
-        let Outcome::Found(path) = outcome else {
+        let (answer, counters) = solve();
+        assert_eq!(solve(), (answer.clone(), counters), "asked again; {}", self.case(expected));
+        let cost = answer.path().map(Path::cost);
+        let Answer::Found(path) = answer else {
             // If there is no path at any angle, the components tell so without a search.
             let searched = counters != Counters::default();
             assert!(!searched || expected.any_angle.is_some(), "{}", self.case(expected));

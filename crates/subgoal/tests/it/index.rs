@@ -3,7 +3,7 @@
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace, Grid, Identity, PlacementKind, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, every, on_all_cores, random_free_vertex, seeds, suite_grid, validate};
-use mediant_search::{Outcome, Planner, Query};
+use mediant_search::{Answer, Ends, Planner};
 use mediant_subgoal::{SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalTheta};
 
 use crate::common::{GAPS, HIERARCHIES, graph, identity, k, levels, space};
@@ -11,19 +11,18 @@ use crate::common::{GAPS, HIERARCHIES, graph, identity, k, levels, space};
 type Graph = SubgoalGraph<Corners>;
 
 /// The answers of both planners.
-fn answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query]) -> Vec<[Outcome; 2]> {
+fn answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Ends]) -> Vec<[Answer; 2]> {
     let mut a_star = SubgoalAStar::new(space, graph).expect("the graph is for this space");
     let mut theta = SubgoalTheta::new(space, graph).expect("the graph is for this space");
-    let mut solve = |&query| {
-        [a_star.solve(query), theta.solve(query)].map(|outcome| outcome.expect("both ends are free"))
-    };
+    let mut solve =
+        |&query| [a_star.solve(query), theta.solve(query)].map(|answer| answer.expect("both ends are free"));
     queries.iter().map(&mut solve).collect()
 }
 
-fn queries(grid: &Grid, seed: u64) -> Vec<Query> {
+fn queries(grid: &Grid, seed: u64) -> Vec<Ends> {
     let mut rng = Rng::new(seed ^ 0x10AD);
     let mut free = || random_free_vertex(&mut rng, grid, PlacementKind::Corner);
-    (0..6).filter_map(|_| Some(Query::new(free()?, free()?))).collect()
+    (0..6).filter_map(|_| Some(Ends::new(free()?, free()?))).collect()
 }
 
 #[test]
@@ -68,10 +67,10 @@ fn rooms() -> Grid {
 }
 
 /// Queries from each of some free vertices to each.
-fn all_queries(space: &FreeSpace<Corners>) -> Vec<Query> {
+fn all_queries(space: &FreeSpace<Corners>) -> Vec<Ends> {
     let vertices = (0..=8).flat_map(|y| (0..=12).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(9).collect();
-    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Ends::new(a, b))).collect()
 }
 
 #[test]
@@ -93,10 +92,10 @@ fn part_of_the_bytes_is_no_graph_and_neither_is_more() {
 }
 
 /// Checks that a graph, whatever it was made for, answers with legal paths or none.
-fn check_answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Query], case: &str) {
-    for (&Query { start, goal, .. }, outcomes) in queries.iter().zip(answers(space, graph, queries)) {
-        for (outcome, k) in outcomes.into_iter().zip([graph.k().finite(), None]) {
-            let Outcome::Found(path) = outcome else { continue };
+fn check_answers(space: &FreeSpace<Corners>, graph: &Graph, queries: &[Ends], case: &str) {
+    for (&Ends { start, goal, .. }, answers) in queries.iter().zip(answers(space, graph, queries)) {
+        for (answer, k) in answers.into_iter().zip([graph.k().finite(), None]) {
+            let Answer::Found(path) = answer else { continue };
             let (rules, way) = (space.rules(), path.waypoints());
             let fault = validate(space.grid(), rules, k, start, goal, way, path.cost());
             assert_eq!(fault, Ok(()), "{case}: {way:?} from {start} to {goal}");
@@ -203,8 +202,7 @@ fn a_made_up_graph_is_refused_or_one_of_legal_paths() {
     for seed in 0..3000 {
         let (mut rng, k) = (Rng::new(seed), [k(2), k(3), k(6), K::Any][seed as usize % 4]);
         let space = space::<Corners>(&rooms(), GAPS[seed as usize / 4 % 2]);
-        let queries: Vec<Query> =
-            all_queries(&space).into_iter().skip(seed as usize % 7).step_by(7).collect();
+        let queries: Vec<Ends> = all_queries(&space).into_iter().skip(seed as usize % 7).step_by(7).collect();
         let made = graph(&space, k, levels(1));
         let place = |at: Vertex| made.vertices().position(|other| other == at).expect("a subgoal") as u32;
         let edges: Vec<(u32, u32)> = made.edges().map(|(a, b)| (place(a), place(b))).collect();

@@ -12,7 +12,7 @@ use mediant_oracle::{
     Costs, Explicit, Visibility, describe, on_all_cores, random_grid, seeds, segment_is_legal, suite_grid,
     turn_is_legal,
 };
-use mediant_search::{Path, Planner, Query};
+use mediant_search::{Ends, Path, Planner};
 use mediant_subgoal::{Hierarchy, SubgoalAStar};
 
 use crate::common::{GAPS, HIERARCHIES, graph, k, levels, space};
@@ -156,8 +156,8 @@ fn every_hierarchy_keeps_the_distances_of_the_edges() {
             let costs = dijkstra(&lengths, i, |_| true);
             for (j, &goal) in subgoals.iter().enumerate().skip(i % 3).step_by(3) {
                 for (planner, hierarchy) in planners.iter_mut().zip(HIERARCHIES) {
-                    let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
-                    let cost = outcome.path().map_or(f64::INFINITY, Path::cost);
+                    let answer = planner.solve(Ends::new(start, goal)).expect("both ends are free");
+                    let cost = answer.path().map_or(f64::INFINITY, Path::cost);
                     assert!(
                         is_same(cost, costs[j]),
                         "{hierarchy:?}, k = {number}: {cost}, over the edges {}; {}",

@@ -9,7 +9,7 @@ use std::{
 use mediant_grid::{Centers, Corners, DiagonalGap, FreeSpace, Interrupt, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves};
-use mediant_search::{Outcome, Planner, Query};
+use mediant_search::{Answer, Ends, Planner};
 use mediant_subgoal::{Hierarchy, Progress, Stage, SubgoalAStar, SubgoalGraph, SubgoalTheta};
 
 use crate::common::{GAPS, HIERARCHIES, graph, k, levels};
@@ -18,22 +18,21 @@ fn cave(gap: DiagonalGap) -> FreeSpace<Corners> {
     FreeSpace::new(Arc::new(caves(&mut Rng::new(7), 60, 50)), gap)
 }
 
-fn queries(space: &FreeSpace<Corners>) -> Vec<Query> {
+fn queries(space: &FreeSpace<Corners>) -> Vec<Ends> {
     let vertices = (0..=50).flat_map(|y| (0..=60).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(137).collect();
-    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Ends::new(a, b))).collect()
 }
 
 type Shared = (Arc<FreeSpace<Corners>>, Arc<SubgoalGraph<Corners>>);
 
-fn solve_all((space, graph): &Shared, queries: &[Query]) -> Vec<[Outcome; 2]> {
+fn solve_all((space, graph): &Shared, queries: &[Ends]) -> Vec<[Answer; 2]> {
     let mut a_star =
         SubgoalAStar::new(Arc::clone(space), Arc::clone(graph)).expect("the graph is for this space");
     let mut theta =
         SubgoalTheta::new(Arc::clone(space), Arc::clone(graph)).expect("the graph is for this space");
-    let mut solve = |&query| {
-        [a_star.solve(query), theta.solve(query)].map(|outcome| outcome.expect("both ends are free"))
-    };
+    let mut solve =
+        |&query| [a_star.solve(query), theta.solve(query)].map(|answer| answer.expect("both ends are free"));
     queries.iter().map(&mut solve).collect()
 }
 
@@ -45,7 +44,7 @@ fn planners_in_many_threads_answer_as_one() {
         for hierarchy in [Hierarchy::Contracted, levels(2)] {
             let shared = (Arc::clone(&space), Arc::new(graph(&space, k, hierarchy)));
             let expected = solve_all(&shared, &queries);
-            let found = expected.iter().filter(|[outcome, _]| outcome.path().is_some()).count();
+            let found = expected.iter().filter(|[answer, _]| answer.path().is_some()).count();
             assert!(found > 50, "only {found} paths");
             // Each thread begins with another query, so that they do not run in step.
             let from = |first: usize| {
@@ -112,15 +111,15 @@ fn maps_without_subgoals_have_graphs() {
         for (k, hierarchy) in [k(3), K::Any].into_iter().flat_map(|k| HIERARCHIES.map(|h| (k, h))) {
             let (made, _) = told(&space, k, hierarchy);
             assert_eq!((made.subgoals(), made.arcs(), made.core()), (0, 0, 0));
-            let query = Query::new((0, 0), (5, 3));
+            let query = Ends::new((0, 0), (5, 3));
             let [a_star, theta] = [
                 SubgoalAStar::new(&space, &made).expect("the graph is for this space").solve(query),
                 SubgoalTheta::new(&space, &made).expect("the graph is for this space").solve(query),
             ];
             assert_eq!(theta.is_ok(), !cells);
             assert_eq!(
-                a_star.map(|outcome| outcome.path().is_some()),
-                theta.map(|outcome| outcome.path().is_some())
+                a_star.map(|answer| answer.path().is_some()),
+                theta.map(|answer| answer.path().is_some())
             );
         }
     }

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, PlacementKind, draw};
 use mediant_moves::K;
-use mediant_search::{Planner, Query};
+use mediant_search::{Ends, Planner};
 use mediant_subgoal::{SubgoalAStar, SubgoalTheta};
 
 use crate::common::{graph, k, levels, space};
@@ -25,7 +25,7 @@ const HALL: &str = "
 /// The numbers of subgoals and edges, then the path of each planner from `s` to `g`, with its cost.
 fn picture(k: K, gap: DiagonalGap) -> String {
     let map = AsciiMap::parse(HALL).expect("the drawing is a map");
-    let query = Query::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
+    let query = Ends::new(map.mark('s').expect("s is drawn"), map.mark('g').expect("g is drawn"));
     let space = space::<Corners>(&map.grid, gap);
     let graph = |hierarchy| graph(&space, k, hierarchy);
     let (one, two) = (graph(levels(1)), graph(levels(2)));
@@ -35,7 +35,7 @@ fn picture(k: K, gap: DiagonalGap) -> String {
         one.edges().count(),
         two.core()
     );
-    let mut add = |name: &str, planner: &mut dyn FnMut(Query) -> Option<mediant_search::Path>| {
+    let mut add = |name: &str, planner: &mut dyn FnMut(Ends) -> Option<mediant_search::Path>| {
         let path = planner(query).expect("there is a path");
         let picture = draw(&map.grid, PlacementKind::Corner, path.waypoints());
         write!(text, "{name}: {:.4}\n{picture}", path.cost()).expect("a text takes all");

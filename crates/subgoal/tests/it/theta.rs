@@ -1,7 +1,7 @@
 //! Sub-Theta*, step by step.
 
 use mediant_grid::{AsciiMap, Corners, DiagonalGap, Vertex};
-use mediant_search::{Counters, NodeEvent, Observer, Outcome, Planner, Query};
+use mediant_search::{Answer, Counters, Ends, NodeEvent, Observer, Planner};
 use mediant_subgoal::{Hierarchy, SubgoalTheta};
 
 use crate::common::{graph, k, levels, space};
@@ -38,13 +38,13 @@ fn solve(drawing: &str, hierarchy: Hierarchy, [start, goal]: [(i32, i32); 2]) ->
     let space = space::<Corners>(&map.grid, DiagonalGap::Open);
     let graph = graph(&space, k(3), hierarchy);
     let mut planner = SubgoalTheta::new(&space, &graph).expect("the graph is for this space");
-    let (query, mut log, mut counters) = (Query::new(start, goal), Log::default(), Counters::default());
-    let outcome = planner.solve_observed(query, &mut log).expect("both ends are free");
-    assert_eq!(planner.solve_observed(query, &mut counters), Ok(outcome.clone()));
+    let (query, mut log, mut counters) = (Ends::new(start, goal), Log::default(), Counters::default());
+    let answer = planner.solve_observed(query, &mut log).expect("both ends are free");
+    assert_eq!(planner.solve_observed(query, &mut counters), Ok(answer.clone()));
     let count = |word| log.0.iter().filter(|line| line.starts_with(word)).count() as u64;
     let counts = [count("expanded"), count("generated"), count("updated")];
     assert_eq!([counters.expanded, counters.generated, counters.updated], counts);
-    let Outcome::Found(path) = outcome else { return (log.0, Vec::new()) };
+    let Answer::Found(path) = answer else { return (log.0, Vec::new()) };
     (log.0, path.into_waypoints())
 }
 

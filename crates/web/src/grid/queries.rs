@@ -1,12 +1,12 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Error, ErrorCode, Guarantee, Outcome, Rules, Stopped};
+use mediant::{Answer, Error, ErrorCode, Guarantee, Rules, Stopped};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
 use crate::{
-    answer::{answer, flat},
+    answer::{flat, told},
     arguments::Points,
     errors::{coded, raised},
     keywords::{ALL, Keywords, call_error},
@@ -37,14 +37,14 @@ impl Grid {
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<Option<Int32Array>, JsValue> {
         match self.answered(start, goal, how)? {
-            (Outcome::Stopped(Stopped { by, lower_bound, .. }), _) => {
+            (Answer::Stopped(Stopped { by, lower_bound, .. }), _) => {
                 let text = format!(
                     "the search was stopped by its limit ({by}): no path is shorter than {lower_bound:.3} cells; \
                      Grid.find gives the best so far"
                 );
                 Err(coded(ErrorCode::Stopped, &text))
             }
-            (outcome, _) => Ok(outcome.path().map(flat)),
+            (answer, _) => Ok(answer.path().map(flat)),
         }
     }
 
@@ -58,8 +58,8 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<JsAnswer, JsValue> {
-        let (outcome, promised) = self.answered(start, goal, how)?;
-        Ok(answer(&outcome, promised))
+        let (answer, promised) = self.answered(start, goal, how)?;
+        Ok(told(&answer, promised))
     }
 
     /// The setup of a call of `path` or `find`: the engine, k, rule and options in one text. The same text,
@@ -76,32 +76,32 @@ impl Grid {
 }
 
 impl Grid {
-    /// The outcome of a call, and what its engine guarantees under which rules.
+    /// The answer of a call, and what its engine guarantees under which rules.
     fn answered(
         &self,
         start: &JsValue,
         goal: &JsValue,
         how: &JsValue,
-    ) -> Result<(Outcome, (Guarantee, Rules)), JsValue> {
+    ) -> Result<(Answer, (Guarantee, Rules)), JsValue> {
         let keywords = Keywords::read("how", how, ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         // The time of the call begins before what it prepares.
-        let request = keywords.request(&start, &goal);
+        let query = keywords.query(&start, &goal);
         let setup = self.map.setup(&keywords.call).map_err(call_error)?;
         if self.map.kept_planners(&setup).is_none() {
             let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
             memory::check("the search", vertices(&self.map), bytes)?;
         }
-        let planners = match self.map.keep_planners(&setup, request.limits()) {
+        let planners = match self.map.keep_planners(&setup, query.limits()) {
             Ok(planners) => planners,
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                let outcome = Outcome::Stopped(Stopped::before_search(by, start));
-                return Ok((outcome, (Guarantee::Suboptimal, setup.rules())));
+                let answer = Answer::Stopped(Stopped::before_search(by, start));
+                return Ok((answer, (Guarantee::Suboptimal, setup.rules())));
             }
             Err(error) => return Err(raised(error)),
         };
         planners.try_make_ready().map_err(raised)?;
-        Ok((planners.find(request).map_err(raised)?, (setup.guarantee(), setup.rules())))
+        Ok((planners.find(query).map_err(raised)?, (setup.guarantee(), setup.rules())))
     }
 }

@@ -3,7 +3,7 @@
 use std::{cmp::Reverse, collections::BinaryHeap, f64::consts::SQRT_2};
 
 use mediant_grid::{Grid, Vertex};
-use mediant_search::Query;
+use mediant_search::Ends;
 
 /// The work of a plain A*, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub(super) struct Work {
 /// one nearer to the goal, and expand fewer.
 ///
 /// `None` if there is no path. Both ends are free cells.
-pub(super) fn plain_astar(grid: &Grid, query: Query) -> Option<Work> {
+pub(super) fn plain_astar(grid: &Grid, query: Ends) -> Option<Work> {
     let width = grid.width() as usize;
     let id = |at: Vertex| at.y as usize * width + at.x as usize;
     let ahead = |at: Vertex| {
@@ -80,15 +80,15 @@ mod tests {
     fn a_list_is_looked_through_for_each_node() {
         let grid = Grid::from_fn(3, 3, |_, _| false).unwrap();
         // The list holds 1 node, then the start's 3 neighbors, then 4: one was taken, two came.
-        let work = plain_astar(&grid, Query::new((0, 0), (2, 0))).unwrap();
+        let work = plain_astar(&grid, Ends::new((0, 0), (2, 0))).unwrap();
         assert_eq!(work, Work { cost: 2.0, expanded: 2, looked: 8 });
     }
 
     #[test]
     fn no_corner_is_cut() {
         let grid = Grid::from_fn(3, 3, |x, y| (x, y) == (1, 1)).unwrap();
-        assert_eq!(plain_astar(&grid, Query::new((0, 0), (2, 2))).unwrap().cost, 4.0);
+        assert_eq!(plain_astar(&grid, Ends::new((0, 0), (2, 2))).unwrap().cost, 4.0);
         let wall = Grid::from_fn(3, 3, |x, _| x == 1).unwrap();
-        assert_eq!(plain_astar(&wall, Query::new((0, 0), (2, 2))), None);
+        assert_eq!(plain_astar(&wall, Ends::new((0, 0), (2, 2))), None);
     }
 }

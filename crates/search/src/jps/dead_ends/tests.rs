@@ -8,7 +8,7 @@ use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, sui
 
 use super::*;
 use crate::{
-    AStar, BlockJps, Counters, Hk, JpsPlus, JumpTable, Planner, Query, Zero,
+    AStar, BlockJps, Counters, Ends, Hk, JpsPlus, JumpTable, Planner, Zero,
     canonical::Pruning,
     jps::{BlockFinder, Jps, planes::JumpPlanes},
     successors::{ExpandedNode, KnownPath, Successors},
@@ -227,7 +227,7 @@ impl Test for Costs {
             for _ in 0..12 {
                 let mut free = || random_free_vertex(rng, grid, P::KIND);
                 let (Some(start), Some(goal)) = (free(), free()) else { continue };
-                let query = Query::new(start, goal);
+                let query = Ends::new(start, goal);
                 let case = || {
                     format!("reach {reach}, k = {k}, {}", describe(grid, P::rules(rule), start, goal, seed))
                 };

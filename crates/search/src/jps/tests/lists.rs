@@ -14,7 +14,7 @@ use super::{
     Reference, Suite, forced_of, long_grids, on_all, pattern_at, suite_grids,
 };
 use crate::{
-    Hk, Planner, Query, Zero,
+    Ends, Hk, Planner, Zero,
     canonical::Pruning,
     successors::{ExpandedNode, KnownPath, Successors},
 };
@@ -123,7 +123,7 @@ fn jumps_longer_than_a_list_can_say_are_scanned() {
             let ends = [(0, 0), (0, 2), (12, 0), (length as i32 + 15, 2), (length as i32 + 2, 0)];
             for (start, goal) in ends.iter().flat_map(|&start| ends.map(|goal| (start, goal))) {
                 let turned = |(x, y): (i32, i32)| if k == 2 { (y, x) } else { (x, y) };
-                let query = Query::new(turned(start), turned(goal));
+                let query = Ends::new(turned(start), turned(goal));
                 let costs =
                     (planners.0.solve(query).unwrap().cost(), planners.1.solve(query).unwrap().cost());
                 assert_eq!(costs.0, costs.1, "{length}, k = {k}, {start:?} to {goal:?}");

@@ -6,7 +6,7 @@ use mediant_grid::{
 };
 use mediant_moves::K;
 use mediant_oracle::{Rng, on_all_cores, seeds, suite_grid};
-use mediant_search::{Outcome, Planner, Query, QueryError};
+use mediant_search::{Answer, Ends, Planner, QueryError};
 use mediant_subgoal::{
     Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalPlacement,
 };
@@ -30,8 +30,8 @@ fn answers<P: SubgoalPlacement>(space: &FreeSpace<P>, labels: &HubLabels<P>) -> 
         planner.distances(start, &goals, &mut distances).expect("the start is free");
         planner.nearest(start, &goals).expect("the start is free");
         for (&goal, at_once) in ends.iter().zip(&distances) {
-            let query = Query::new(start, goal);
-            let cost = planner.solve(query).map(|outcome| outcome.cost().map(f64::to_bits));
+            let query = Ends::new(start, goal);
+            let cost = planner.solve(query).map(|answer| answer.cost().map(f64::to_bits));
             let distance = planner.cost(query).map(|cost| cost.map(mediant_moves::Cost::to_bits));
             found.push([cost, distance]);
             found.push([Ok(at_once.map(mediant_moves::Cost::to_bits)), Ok(None)]);
@@ -239,7 +239,7 @@ fn labels_are_no_graph_and_a_graph_is_no_labels() {
     let read = SubgoalGraph::from_bytes(&space, K::Any, &most.to_bytes()).expect("these are its bytes");
     assert_eq!(read.hierarchy(), Hierarchy::AllLevels);
     let mut planner = SubgoalAStar::new(&space, &read).expect("the graph is for this space");
-    assert!(matches!(planner.solve(Query::new((0, 0), (10, 6))), Ok(Outcome::Found(_))));
+    assert!(matches!(planner.solve(Ends::new((0, 0), (10, 6))), Ok(Answer::Found(_))));
 }
 
 /// A label of a hub that is no subgoal, or that costs more than any path, is refused, whatever label it is.

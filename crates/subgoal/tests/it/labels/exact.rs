@@ -5,7 +5,7 @@ use mediant_moves::{Cost, K};
 use mediant_oracle::{
     Explicit, Visibility, describe, is_exhaustive, on_all_cores, seeds, suite_grid, validate,
 };
-use mediant_search::{Guarantee, Outcome, Planner, Query};
+use mediant_search::{Answer, Ends, Guarantee, Planner};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
 use crate::{
@@ -74,11 +74,11 @@ impl<P: SubgoalPlacement> Suite<'_, P> {
         I: std::ops::Deref<Target = HubLabels<P>>,
     {
         let (k, &Expected { start, goal, .. }) = (self.labels.k(), expected);
-        let query = Query::new(start, goal);
-        let outcome = planner.solve(query).unwrap_or_else(|error| panic!("{error}; {}", self.case(expected)));
-        assert_eq!(planner.solve(query).as_ref(), Ok(&outcome), "asked again; {}", self.case(expected));
+        let query = Ends::new(start, goal);
+        let answer = planner.solve(query).unwrap_or_else(|error| panic!("{error}; {}", self.case(expected)));
+        assert_eq!(planner.solve(query).as_ref(), Ok(&answer), "asked again; {}", self.case(expected));
         let distance = planner.cost(query).unwrap_or_else(|error| panic!("{error}; {}", self.case(expected)));
-        let Outcome::Found(path) = outcome else {
+        let Answer::Found(path) = answer else {
             assert_eq!((distance, &expected.path), (None, &None), "{}", self.case(expected));
             return None;
         };

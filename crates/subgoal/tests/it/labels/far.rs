@@ -3,7 +3,7 @@
 use mediant_grid::{Corners, FreeSpace, Grid, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_oracle::{Rng, on_all_cores, rooms, seeds, wide_grid};
-use mediant_search::{Planner, Query, parts::Metric};
+use mediant_search::{Ends, Planner, parts::Metric};
 use mediant_subgoal::{Hierarchy, HubLabelSearch, SubgoalAStar};
 
 use super::exact::is_equal;
@@ -71,11 +71,11 @@ fn check(space: &FreeSpace<Corners>, k: K, ends: &[Vertex], case: &str) -> usize
         for (&goal, to) in ends.iter().zip(&edges) {
             let case = || format!("{case}, k = {k}, from {start} to {goal}");
             let expected = sight.distance([start, goal], [from, to]);
-            let distance = planner.cost(Query::new(start, goal)).expect("both ends are free");
+            let distance = planner.cost(Ends::new(start, goal)).expect("both ends are free");
             let is_right = distance.zip(expected).map_or(distance == expected, |(a, b)| is_equal(k, a, b));
             assert!(is_right, "{distance:?}, reference {expected:?}; {}", case());
-            let outcome = planner.solve(Query::new(start, goal)).expect("both ends are free");
-            let way = outcome.path().map(mediant_search::Path::waypoints);
+            let answer = planner.solve(Ends::new(start, goal)).expect("both ends are free");
+            let way = answer.path().map(mediant_search::Path::waypoints);
             let cost = way.map(|way| length(k, way));
             let is_right = cost.zip(expected).map_or(cost == expected, |(a, b)| is_equal(k, a, b));
             assert!(is_right, "the path costs {cost:?}, reference {expected:?}; {}", case());
@@ -211,9 +211,8 @@ fn on_large_maps_labels_answer_as_the_hierarchy() {
         let mut ours = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
         let mut theirs = SubgoalAStar::new(&space, &graph).expect("the graph is for this space");
         let ends: Vec<Vertex> = (0..12).flat_map(|_| ends(&space, &mut rng)).collect();
-        for query in ends.iter().zip(ends.iter().skip(7)).map(|(&a, &b)| Query::new(a, b)) {
-            let cost =
-                |outcome: mediant_search::Outcome| outcome.path().map(|path| length(k, path.waypoints()));
+        for query in ends.iter().zip(ends.iter().skip(7)).map(|(&a, &b)| Ends::new(a, b)) {
+            let cost = |answer: mediant_search::Answer| answer.path().map(|path| length(k, path.waypoints()));
             let [own, other] =
                 [ours.solve(query), theirs.solve(query)].map(|o| cost(o.expect("both ends are free")));
             assert_eq!(own.is_some(), other.is_some(), "{query:?}");

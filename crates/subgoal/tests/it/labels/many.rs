@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use mediant_grid::{AsciiMap, Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Vertex};
 use mediant_moves::{Cost, K};
 use mediant_oracle::{Rng, caves, on_all_cores, rooms, seeds};
-use mediant_search::{End, Planner, Query, QueryError};
+use mediant_search::{End, Ends, Planner, QueryError};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
 use super::exact::is_equal;
@@ -43,7 +43,7 @@ fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [u
             let nearest = planner.nearest(start, &prepared).expect("the start is free");
             let each: Vec<Option<Cost>> = goals
                 .iter()
-                .map(|&goal| planner.cost(Query::new(start, goal)).expect("both ends are free"))
+                .map(|&goal| planner.cost(Ends::new(start, goal)).expect("both ends are free"))
                 .collect();
             assert_eq!(at_once.len(), each.len());
             for ((own, other), &goal) in each.iter().zip(&at_once).zip(&goals) {
@@ -56,8 +56,8 @@ fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [u
             let mut exact = |number: usize, cost: Cost| match k {
                 K::Finite(_) => cost,
                 K::Any => {
-                    let outcome = planner.solve(Query::new(start, goals[number])).expect("the ends are free");
-                    guarantee.cost(outcome.path().expect("it has a length"))
+                    let answer = planner.solve(Ends::new(start, goals[number])).expect("the ends are free");
+                    guarantee.cost(answer.path().expect("it has a length"))
                 }
             };
             let all = at_once.iter().zip(0..).filter_map(|(cost, number)| Some((number, (*cost)?)));
@@ -134,7 +134,7 @@ fn of_equally_near_goals_the_first_is_the_nearest() {
         let start = Vertex::new(4, 4);
         let goals: Vec<Vertex> = [(1, 1), (7, 1), (1, 7), (7, 7), (4, 8), (8, 4)].map(Vertex::from).into();
         let cost = |planner: &mut HubLabelSearch<_, _>, goal| {
-            planner.cost(Query::new(start, goal)).expect("both ends are free").expect("there is a path")
+            planner.cost(Ends::new(start, goal)).expect("both ends are free").expect("there is a path")
         };
         let costs: Vec<Cost> = goals.iter().map(|&goal| cost(&mut planner, goal)).collect();
         for turn in 0..goals.len() {
@@ -183,8 +183,8 @@ fn no_goals_unreachable_goals_and_wrong_ones() {
         assert!(is_error(End::Start, at_once), "{at_once:?}");
         let nearest = planner.nearest(wrong, &mixed).map(|_| ());
         assert!(is_error(End::Start, nearest), "{nearest:?}");
-        assert!(is_error(End::Start, planner.cost(Query::new(wrong, start)).map(|_| ())));
-        assert!(is_error(End::Goal, planner.solve(Query::new(start, wrong)).map(|_| ())));
+        assert!(is_error(End::Start, planner.cost(Ends::new(wrong, start)).map(|_| ())));
+        assert!(is_error(End::Goal, planner.solve(Ends::new(start, wrong)).map(|_| ())));
     }
 }
 
@@ -201,11 +201,11 @@ fn a_planner_answers_the_thousandth_query_as_the_first() {
         for turn in 0..700 {
             let [start, goal] = [0, 1].map(|_| *rng.pick(&free).expect("some are free"));
             ends.insert((start, goal));
-            let query = Query::new(start, goal);
+            let query = Ends::new(start, goal);
             let (found, expected) = (old.solve(query), planner().solve(query));
             assert_eq!(found, expected, "query {turn}: {query:?}, k = {k}");
             over += usize::from(
-                expected.is_ok_and(|outcome| outcome.path().is_some_and(|p| p.waypoints().len() > 3)),
+                expected.is_ok_and(|answer| answer.path().is_some_and(|p| p.waypoints().len() > 3)),
             );
             if rng.chance(20) {
                 let (mut distances, mut others) = (Vec::new(), Vec::new());

@@ -8,7 +8,7 @@ use std::{
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex};
 use mediant_moves::K;
 use mediant_oracle::{Rng, caves, noise};
-use mediant_search::{Outcome, Planner, Query};
+use mediant_search::{Answer, Ends, Planner};
 use mediant_subgoal::{
     Goals, Hierarchy, HubLabelSearch, HubLabels, PreparedSubgoals, Progress, Stage, SubgoalAStar,
     SubgoalError, SubgoalPlacement,
@@ -20,10 +20,10 @@ fn cave(gap: DiagonalGap) -> FreeSpace<Corners> {
     space(&caves(&mut Rng::new(7), 60, 50), gap)
 }
 
-fn queries(space: &FreeSpace<Corners>, every: usize) -> Vec<Query> {
+fn queries(space: &FreeSpace<Corners>, every: usize) -> Vec<Ends> {
     let vertices = (0..=50).flat_map(|y| (0..=60).map(move |x| Vertex::new(x, y)));
     let free: Vec<Vertex> = vertices.filter(|&at| space.is_free(at)).step_by(every).collect();
-    free.iter().flat_map(|&a| free.iter().map(move |&b| Query::new(a, b))).collect()
+    free.iter().flat_map(|&a| free.iter().map(move |&b| Ends::new(a, b))).collect()
 }
 
 #[test]
@@ -32,12 +32,12 @@ fn planners_in_many_threads_answer_as_one() {
         let space = Arc::new(cave(gap));
         let labels = Arc::new(labels(&space, k));
         let queries = queries(&space, 137);
-        let solve_all = |queries: &[Query]| -> Vec<Outcome> {
+        let solve_all = |queries: &[Ends]| -> Vec<Answer> {
             let mut planner = HubLabelSearch::new(Arc::clone(&space), Arc::clone(&labels)).expect("they fit");
             queries.iter().map(|&query| planner.solve(query).expect("both ends are free")).collect()
         };
         let expected = solve_all(&queries);
-        assert!(expected.iter().filter(|outcome| outcome.path().is_some()).count() > 50);
+        assert!(expected.iter().filter(|answer| answer.path().is_some()).count() > 50);
         // Each thread begins with another query, so that they do not run in step.
         let from = |first: usize| {
             let mut turned = queries.clone();
@@ -211,17 +211,14 @@ fn maps_without_subgoals_have_labels() {
             let made = labels(&space, k);
             assert_eq!((made.subgoals(), made.labels()), (0, 0));
             let read = HubLabels::from_bytes(&space, k, &made.to_bytes()).expect("these are its bytes");
-            let query = Query::new((0, 0), (width as i32, height as i32));
+            let query = Ends::new((0, 0), (width as i32, height as i32));
             for labels in [&made, &read] {
                 let mut planner = HubLabelSearch::new(&space, labels).expect("they fit");
-                let outcome = planner.solve(query);
-                assert_eq!(outcome.is_ok(), !cells);
+                let answer = planner.solve(query);
+                assert_eq!(answer.is_ok(), !cells);
                 let theirs = graph(&space, k, Hierarchy::Contracted);
                 let theirs = SubgoalAStar::new(&space, &theirs).expect("it fits").solve(query);
-                assert_eq!(
-                    outcome.ok().and_then(Outcome::into_path),
-                    theirs.ok().and_then(Outcome::into_path)
-                );
+                assert_eq!(answer.ok().and_then(Answer::into_path), theirs.ok().and_then(Answer::into_path));
                 let goals = labels.goals(&space, (!cells).then_some(query.goal)).expect("the goal is free");
                 assert_eq!(
                     planner.nearest(query.start, &goals).is_ok_and(|nearest| nearest.is_some()),

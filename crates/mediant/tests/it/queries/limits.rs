@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use mediant::{
-    Cost, Engine, Guarantee, K, Limit, Limits, Outcome, Planner, Query, Setup, Stopped, Vertex,
+    Answer, Cost, Ends, Engine, Guarantee, K, Limit, Limits, Planner, Setup, Stopped, Vertex,
     errors::QueryError,
     search::{NodeEvent, Observer},
 };
@@ -16,28 +16,28 @@ use super::{Event, Log, World, end, expands_in_clusters, is_exact, maps, on_worl
 use crate::{planner, setup};
 
 /// The stopped search, if that is the answer.
-fn stopped(answer: Result<Outcome, QueryError>) -> Option<Stopped> {
+fn stopped(answer: Result<Answer, QueryError>) -> Option<Stopped> {
     match answer {
-        Ok(Outcome::Stopped(stopped)) => Some(stopped),
+        Ok(Answer::Stopped(stopped)) => Some(stopped),
         _ => None,
     }
 }
 
 /// The vertex nearest to the goal among the start and those that were reached within the limit on the cost,
 /// the first of several.
-fn nearest_reached(world: &World, query: Query, log: &Log, limit: f64) -> Vertex {
+fn nearest_reached(world: &World, ends: Ends, log: &Log, limit: f64) -> Vertex {
     let reached = log.0.iter().filter_map(|event| match *event {
         Event::Reached(at, g) if g.to_f64() <= limit * (1.0 + 1e-9) => Some(at),
         _ => None,
     });
-    let all = [query.start].into_iter().chain(reached);
-    all.min_by_key(|&at| world.distance(at, query.goal)).expect("the start")
+    let all = [ends.start].into_iter().chain(reached);
+    all.min_by_key(|&at| world.distance(at, ends.goal)).expect("the start")
 }
 
 /// A query, its answer without limits, and what is known of it.
 struct Known<'a> {
-    query: Query,
-    answer: Result<Outcome, QueryError>,
+    ends: Ends,
+    answer: Result<Answer, QueryError>,
     /// The cost of an optimal path of the search's kind; and at any angle, or where that is not known, the
     /// straight line.
     optimum: f64,
@@ -57,27 +57,27 @@ fn check_stopped(
     stopped: &Stopped,
     (log, limit): (&Log, f64),
 ) {
-    let &Known { query, optimum, any_angle, .. } = known;
-    let text = || format!("{stopped:?}; {}", world.text(setup, &query));
-    let mut nearest = nearest_reached(world, query, log, limit);
-    if expands_in_clusters(setup) && stopped.by == Limit::Cost && stopped.best.waypoints() == [query.start] {
+    let &Known { ends, optimum, any_angle, .. } = known;
+    let text = || format!("{stopped:?}; {}", world.text(setup, &ends));
+    let mut nearest = nearest_reached(world, ends, log, limit);
+    if expands_in_clusters(setup) && stopped.by == Limit::Cost && stopped.best.waypoints() == [ends.start] {
         // It has found a path that costs too much, and has forgotten the others.
-        nearest = query.start;
+        nearest = ends.start;
     }
-    world.check_path(setup, &stopped.best, (query.start, nearest), &query);
+    world.check_path(setup, &stopped.best, (ends.start, nearest), &ends);
     let bound = stopped.lower_bound;
     if is_exact(planner) {
         assert!(bound <= optimum * (1.0 + 1e-9), "the optimum is {optimum}: {}", text());
-        assert!(bound >= world.least(query.start, query.goal) * (1.0 - 1e-9), "{}", text());
+        assert!(bound >= world.least(ends.start, ends.goal) * (1.0 - 1e-9), "{}", text());
     }
     match planner.guarantee() {
         Guarantee::AtMost(_) => {
             assert!(bound <= any_angle * (1.0 + 1e-9), "the optimum is {any_angle}: {}", text());
-            let is_known = planner.bound().is_some() && query.start != query.goal;
+            let is_known = planner.bound().is_some() && ends.start != ends.goal;
             assert_eq!(bound > 0.0, is_known, "{}", text());
         }
         _ => {
-            assert!(bound >= query.start.distance(query.goal) * (1.0 - 1e-9), "{}", text());
+            assert!(bound >= ends.start.distance(ends.goal) * (1.0 - 1e-9), "{}", text());
             let optimum = if setup.paths() == K::Any { any_angle } else { optimum };
             assert!(bound <= optimum * (1.0 + 1e-9), "the optimum is {optimum}: {}", text());
         }
@@ -95,21 +95,21 @@ fn check_reached(world: &World, setup: Setup, known: &Known<'_>, log: &Log) {
         assert!(
             least.is_some_and(|least| g.to_f64() >= least * (1.0 - 1e-9)),
             "{at} at {g}, not {least:?}: {}",
-            world.text(setup, &known.query)
+            world.text(setup, &known.ends)
         );
     }
 }
 
 /// Returns how often a subgoal graph knows a path to the goal before its answer.
 fn check_expansions(world: &World, setup: Setup, planner: &mut Planner, known: &Known<'_>) -> usize {
-    let &Known { query, expansions: n, .. } = known;
+    let &Known { ends, expansions: n, .. } = known;
     let (mut last, mut known_paths) = (0.0, 0);
     let mut limits = [0, 1, n / 2, n.saturating_sub(1), n, n + 1];
     limits.sort_unstable();
     for most in limits {
-        let text = || format!("{most} of {n} expansions: {}", world.text(setup, &query));
+        let text = || format!("{most} of {n} expansions: {}", world.text(setup, &ends));
         let mut log = Log::default();
-        let answer = planner.find_observed(query.within(Limits::new().expansions(most)), &mut log);
+        let answer = planner.find_observed(ends.within(Limits::new().expansions(most)), &mut log);
         assert_eq!(planner.expansions(), log.expansions(), "{}", text());
         check_reached(world, setup, known, &log);
         let Some(stopped) = stopped(answer.clone()) else {
@@ -122,12 +122,11 @@ fn check_expansions(world: &World, setup: Setup, planner: &mut Planner, known: &
         check_stopped(world, setup, planner, known, &stopped, (&log, f64::INFINITY));
         assert!(stopped.lower_bound >= last, "not {last} any more, {stopped:?}: {}", text());
         last = stopped.lower_bound;
-        known_paths +=
-            usize::from(setup.engine.kind() == Engine::Subgoal && end(&stopped.best) == query.goal);
+        known_paths += usize::from(setup.engine.kind() == Engine::Subgoal && end(&stopped.best) == ends.goal);
         // The answer is the same in steps, and the state of the search is that of the answer.
-        planner.begin(query.within(Limits::new().expansions(most))).expect("both ends are free");
+        planner.begin(ends.within(Limits::new().expansions(most))).expect("both ends are free");
         while planner.step(2) == Ok(None) {}
-        assert_eq!(planner.finish(), Ok(Outcome::Stopped(stopped.clone())), "{}", text());
+        assert_eq!(planner.finish(), Ok(Answer::Stopped(stopped.clone())), "{}", text());
         assert_eq!(planner.best(), Some(stopped.best), "{}", text());
         assert!((planner.lower_bound() - last).abs() <= 1e-9, "{}", text());
     }
@@ -135,28 +134,23 @@ fn check_expansions(world: &World, setup: Setup, planner: &mut Planner, known: &
 }
 
 fn check_cost(world: &World, setup: Setup, planner: &mut Planner, known: &Known<'_>) {
-    let &Known { query, optimum, .. } = known;
+    let &Known { ends, optimum, .. } = known;
     // Smoothed paths are those of a search that is optimal.
     let is_optimal = is_exact(planner) || matches!(planner.guarantee(), Guarantee::AtMost(_));
     let cost = match &known.answer {
-        Ok(outcome) if !is_optimal => outcome.cost().unwrap_or(0.0),
+        Ok(answer) if !is_optimal => answer.cost().unwrap_or(0.0),
         _ => optimum,
     };
     for limit in [cost, cost * (1.0 - 1e-6), cost * (1.0 + 1e-6), cost / 2.0, 0.0, f64::INFINITY] {
-        let text = || format!("the limit is {limit}, the optimum {optimum}: {}", world.text(setup, &query));
+        let text = || format!("the limit is {limit}, the optimum {optimum}: {}", world.text(setup, &ends));
         let mut log = Log::default();
-        let answer = planner.find_observed(query.within(Limits::new().cost(limit)), &mut log);
+        let answer = planner.find_observed(ends.within(Limits::new().cost(limit)), &mut log);
         if is_optimal {
-            assert_eq!(
-                matches!(answer, Ok(Outcome::Found(_))),
-                optimum <= limit * (1.0 + 1e-9),
-                "{}",
-                text()
-            );
+            assert_eq!(matches!(answer, Ok(Answer::Found(_))), optimum <= limit * (1.0 + 1e-9), "{}", text());
         }
         let Some(stopped) = stopped(answer.clone()) else {
             assert_eq!(answer, known.answer, "{}", text());
-            let found = answer.ok().and_then(|outcome| outcome.cost());
+            let found = answer.ok().and_then(|answer| answer.cost());
             assert!(found.is_none_or(|cost| cost <= limit * (1.0 + 1e-6)), "{}", text());
             continue;
         };
@@ -199,17 +193,17 @@ impl Observer for Flag {
 }
 
 fn check_cancelled(world: &World, setup: Setup, planner: &mut Planner, known: &Known<'_>) {
-    let &Known { query, expansions: n, .. } = known;
-    let text = || world.text(setup, &query);
+    let &Known { ends, expansions: n, .. } = known;
+    let text = || world.text(setup, &ends);
     let set = Limits::new().cancel(Arc::new(AtomicBool::new(true)));
-    let at_first = stopped(planner.find(query.within(set))).unwrap_or_else(|| panic!("{}", text()));
+    let at_first = stopped(planner.find(ends.within(set))).unwrap_or_else(|| panic!("{}", text()));
     assert_eq!((at_first.by, planner.expansions()), (Limit::Cancelled, 0), "{}", text());
-    assert_eq!(at_first.best.waypoints(), [query.start], "{}", text());
+    assert_eq!(at_first.best.waypoints(), [ends.start], "{}", text());
 
     for after in [1, n / 2, n.saturating_sub(1)].into_iter().filter(|&after| after > 0 && after < n) {
         let mut observer = Flag::new(after);
         let limits = Limits::new().cancel(observer.flag.clone());
-        match stopped(planner.find_observed(query.within(limits), &mut observer)) {
+        match stopped(planner.find_observed(ends.within(limits), &mut observer)) {
             Some(stopped) => {
                 assert_eq!(stopped.by, Limit::Cancelled, "{}", text());
                 assert!(planner.expansions() == after || expands_in_clusters(setup), "{}", text());
@@ -222,9 +216,9 @@ fn check_cancelled(world: &World, setup: Setup, planner: &mut Planner, known: &K
 
 /// Returns how often the deadline was looked at after the first time.
 fn check_deadline(world: &World, setup: Setup, planner: &mut Planner, known: &Known<'_>) -> usize {
-    let &Known { query, expansions: n, .. } = known;
-    let text = || format!("{n} expansions: {}", world.text(setup, &query));
-    let is_known = |answer: &Result<Outcome, QueryError>| answer == &known.answer;
+    let &Known { ends, expansions: n, .. } = known;
+    let text = || format!("{n} expansions: {}", world.text(setup, &ends));
+    let is_known = |answer: &Result<Answer, QueryError>| answer == &known.answer;
     let looks = Arc::new(Mutex::new(Vec::new()));
     // Asks how many expansions there were at each look; the deadline is over from one of them on.
     let ask = |planner: &mut Planner, over: usize| {
@@ -235,7 +229,7 @@ fn check_deadline(world: &World, setup: Setup, planner: &mut Planner, known: &Kn
             seen.push(expansions.load(Ordering::Relaxed));
             seen.len() > over
         };
-        let answer = planner.find_observed(query.within(Limits::new().deadline(deadline)), &mut observer);
+        let answer = planner.find_observed(ends.within(Limits::new().deadline(deadline)), &mut observer);
         let seen = std::mem::take(&mut *looks.lock().unwrap_or_else(PoisonError::into_inner));
         (answer, seen, observer.log)
     };
@@ -268,15 +262,15 @@ fn on_queries<R: Send>(
         let mut checked = Vec::new();
         for (setup, mut planner) in world.planners() {
             for _ in 0..queries {
-                let Some(query) = world.query(rng) else { continue };
-                let costs = world.oracle.costs_from(query.start);
-                let Some(optimum) = costs.to(query.goal) else { continue };
-                planner.begin(query).expect("both ends are free");
+                let Some(ends) = world.ends(rng) else { continue };
+                let costs = world.oracle.costs_from(ends.start);
+                let Some(optimum) = costs.to(ends.goal) else { continue };
+                planner.begin(ends).expect("both ends are free");
                 let answer = planner.finish();
                 let expansions = planner.expansions();
-                let any_angle_costs = any_angle.costs_from(query.start);
-                let any_angle = any_angle_costs.to(query.goal).expect("there is a way");
-                let known = Known { query, answer, optimum, any_angle, costs, any_angle_costs, expansions };
+                let any_angle_costs = any_angle.costs_from(ends.start);
+                let any_angle = any_angle_costs.to(ends.goal).expect("there is a way");
+                let known = Known { ends, answer, optimum, any_angle, costs, any_angle_costs, expansions };
                 checked.push(check(world, setup, &mut planner, &known));
             }
         }
@@ -312,20 +306,20 @@ fn a_deadline_is_looked_at_now_and_then() {
 fn a_limit_is_a_number() {
     for text in ["astar", "anya", "subgoal", "hpa", "chpa"] {
         let mut planner = planner(setup(text));
-        let query = Query::new((0, 0), (8, 4));
+        let ends = Ends::new((0, 0), (8, 4));
         for cost in [f64::NAN, -f64::NAN, -1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY] {
-            let request = query.within(Limits::new().cost(cost));
-            assert_eq!(planner.find(request.clone()), Err(QueryError::CostLimit), "{text}, {cost}");
-            assert_eq!(planner.begin(request), Err(QueryError::CostLimit), "{text}, {cost}");
+            let query = ends.within(Limits::new().cost(cost));
+            assert_eq!(planner.find(query.clone()), Err(QueryError::CostLimit), "{text}, {cost}");
+            assert_eq!(planner.begin(query), Err(QueryError::CostLimit), "{text}, {cost}");
         }
-        let found = planner.find(query);
+        let found = planner.find(ends);
         for cost in [1e300, f64::INFINITY, f64::MAX] {
-            assert_eq!(planner.find(query.within(Limits::new().cost(cost))), found, "{text}, {cost}");
+            assert_eq!(planner.find(ends.within(Limits::new().cost(cost))), found, "{text}, {cost}");
         }
-        let still = Query::new((0, 0), (0, 0));
+        let still = Ends::new((0, 0), (0, 0));
         for cost in [0.0, -0.0] {
             let answer = planner.find(still.within(Limits::new().cost(cost)));
-            assert_eq!(answer.map(|outcome| outcome.cost()), Ok(Some(0.0)), "{text}, {cost}");
+            assert_eq!(answer.map(|answer| answer.cost()), Ok(Some(0.0)), "{text}, {cost}");
         }
     }
 }

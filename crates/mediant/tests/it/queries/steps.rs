@@ -1,7 +1,7 @@
 //! A search in steps is the search at once, and what is abandoned leaves nothing behind.
 
 use mediant::{
-    Cost, Engine, Outcome, Planner, Query, Request, Setup, Vertex, errors::QueryError, search::Observer,
+    Answer, Cost, Ends, Engine, Planner, Query, Setup, Vertex, errors::QueryError, search::Observer,
 };
 
 use super::{Event, Log, World, end, expands_in_clusters, is_exact, maps, on_worlds, start};
@@ -10,63 +10,63 @@ use crate::{planner, setup};
 /// The answer of a search in steps of so many expansions, and its events.
 pub(super) fn in_steps(
     planner: &mut Planner,
-    request: &Request,
+    query: &Query,
     size: u64,
-) -> Result<(Outcome, Vec<Event>), QueryError> {
+) -> Result<(Answer, Vec<Event>), QueryError> {
     let mut log = Log::default();
-    planner.begin(request.clone())?;
+    planner.begin(query.clone())?;
     loop {
-        if let Some(outcome) = planner.step_observed(size, &mut log)? {
-            return Ok((outcome, log.0));
+        if let Some(answer) = planner.step_observed(size, &mut log)? {
+            return Ok((answer, log.0));
         }
     }
 }
 
 /// The answer of a search that runs to its end, and its events.
-fn at_once(planner: &mut Planner, request: impl Into<Request>) -> Result<(Outcome, Vec<Event>), QueryError> {
+fn at_once(planner: &mut Planner, query: impl Into<Query>) -> Result<(Answer, Vec<Event>), QueryError> {
     let mut log = Log::default();
-    let outcome = planner.find_observed(request, &mut log)?;
-    Ok((outcome, log.0))
+    let answer = planner.find_observed(query, &mut log)?;
+    Ok((answer, log.0))
 }
 
-fn check_steps(world: &World, setup: Setup, planner: &mut Planner, query: Query) {
-    let text = || world.text(setup, &query);
-    let request = Request::between([query.start], [query.goal]);
-    let plain = at_once(planner, query);
-    let watched = at_once(planner, request.clone());
+fn check_steps(world: &World, setup: Setup, planner: &mut Planner, ends: Ends) {
+    let text = || world.text(setup, &ends);
+    let query = Query::between([ends.start], [ends.goal]);
+    let plain = at_once(planner, ends);
+    let watched = at_once(planner, query.clone());
     assert_eq!(
-        watched.clone().map(|(outcome, events)| (outcome, Log(events).of_search())),
+        watched.clone().map(|(answer, events)| (answer, Log(events).of_search())),
         plain,
         "{}",
         text()
     );
     for size in [1, 3, 1000] {
-        assert_eq!(in_steps(planner, &request, size), watched, "steps of {size}: {}", text());
+        assert_eq!(in_steps(planner, &query, size), watched, "steps of {size}: {}", text());
     }
     // The answer is there once more, without any event.
-    if let Ok((outcome, _)) = &plain {
+    if let Ok((answer, _)) = &plain {
         let (mut log, expansions) = (Log::default(), planner.expansions());
-        assert_eq!(planner.step_observed(9, &mut log).as_ref(), Ok(&Some(outcome.clone())), "{}", text());
-        assert_eq!(planner.finish().as_ref(), Ok(outcome), "{}", text());
+        assert_eq!(planner.step_observed(9, &mut log).as_ref(), Ok(&Some(answer.clone())), "{}", text());
+        assert_eq!(planner.finish().as_ref(), Ok(answer), "{}", text());
         assert_eq!((log.0, planner.expansions()), (Vec::new(), expansions), "{}", text());
-        assert_eq!(planner.best().as_ref(), outcome.path().or(planner.best().as_ref()), "{}", text());
+        assert_eq!(planner.best().as_ref(), answer.path().or(planner.best().as_ref()), "{}", text());
     } else {
-        assert_eq!(planner.finish(), plain.clone().map(|(outcome, _)| outcome), "{}", text());
+        assert_eq!(planner.finish(), plain.clone().map(|(answer, _)| answer), "{}", text());
     }
-    check_state(world, setup, planner, query, plain.as_ref().ok().map(|(outcome, _)| outcome));
+    check_state(world, setup, planner, ends, plain.as_ref().ok().map(|(answer, _)| answer));
 }
 
 /// Checks what can be read between steps, and that reading it changes nothing.
-fn check_state(world: &World, setup: Setup, planner: &mut Planner, query: Query, answer: Option<&Outcome>) {
-    let text = || world.text(setup, &query);
-    planner.begin(query).expect("both ends are free");
+fn check_state(world: &World, setup: Setup, planner: &mut Planner, ends: Ends, answer: Option<&Answer>) {
+    let text = || world.text(setup, &ends);
+    planner.begin(ends).expect("both ends are free");
     assert_eq!(planner.expansions(), 0, "{}", text());
     let (mut log, mut bound, mut expansions) = (Log::default(), planner.lower_bound(), 0);
-    let optimum = world.optimum(query.start, query.goal).filter(|_| is_exact(planner));
+    let optimum = world.optimum(ends.start, ends.goal).filter(|_| is_exact(planner));
     loop {
         let state = (planner.best(), planner.lower_bound(), planner.expansions());
         let best = state.0.as_ref().expect("at least the start");
-        world.check_path(setup, best, (query.start, end(best)), &query);
+        world.check_path(setup, best, (ends.start, end(best)), &ends);
         let nothing = planner.step_observed(0, &mut log);
         if log.expansions() == expansions && nothing == Ok(None) {
             let mut after = (planner.best(), planner.lower_bound(), planner.expansions());
@@ -95,8 +95,8 @@ fn check_state(world: &World, setup: Setup, planner: &mut Planner, query: Query,
                     text()
                 );
             }
-            Ok(Some(outcome)) => {
-                assert_eq!(Some(&outcome), answer, "{}", text());
+            Ok(Some(last)) => {
+                assert_eq!(Some(&last), answer, "{}", text());
                 assert!(planner.lower_bound() >= bound, "the bound falls at the end: {}", text());
                 break;
             }
@@ -111,7 +111,7 @@ fn check_state(world: &World, setup: Setup, planner: &mut Planner, query: Query,
 }
 
 /// Checks that a search which is left at any time changes nothing of what comes after.
-fn check_abandoned(world: &World, setup: Setup, planner: &mut Planner, [first, second]: [Query; 2]) {
+fn check_abandoned(world: &World, setup: Setup, planner: &mut Planner, [first, second]: [Ends; 2]) {
     let text = || world.text(setup, &[first, second]);
     let index = planner.index().clone();
     let fresh = at_once(&mut index.planner(), second);
@@ -145,8 +145,8 @@ fn steps_are_the_search_at_once() {
         let mut asked = 0;
         for (setup, mut planner) in world.planners() {
             for _ in 0..2 {
-                let Some(query) = world.query(rng) else { continue };
-                check_steps(world, setup, &mut planner, query);
+                let Some(ends) = world.ends(rng) else { continue };
+                check_steps(world, setup, &mut planner, ends);
                 asked += 1;
             }
         }
@@ -159,7 +159,7 @@ fn steps_are_the_search_at_once() {
 fn abandoned_searches_leave_nothing_behind() {
     on_worlds(maps(1), |world, rng| {
         for (setup, mut planner) in world.planners() {
-            if let Some(queries) = world.query(rng).zip(world.query(rng)) {
+            if let Some(queries) = world.ends(rng).zip(world.ends(rng)) {
                 check_abandoned(world, setup, &mut planner, queries.into());
             }
         }
@@ -191,10 +191,10 @@ fn nothing_is_known_without_a_search() {
 #[test]
 fn a_planner_that_gave_up_says_so_again() {
     let mut planner = planner(setup("chpa:2:never,paper"));
-    let query = Query::new((0, 0), (8, 4));
-    let error = planner.find(query).expect_err("the windows of its segments join too little");
-    assert_eq!(planner.find(query.nearest()), Err(error));
-    planner.begin(query).expect("both ends are free");
+    let ends = Ends::new((0, 0), (8, 4));
+    let error = planner.find(ends).expect_err("the windows of its segments join too little");
+    assert_eq!(planner.find(ends.nearest()), Err(error));
+    planner.begin(ends).expect("both ends are free");
     let stepped = loop {
         match planner.step(1) {
             Ok(None) => {}
@@ -203,7 +203,7 @@ fn a_planner_that_gave_up_says_so_again() {
     };
     assert_eq!(stepped, Err(error));
     assert_eq!((planner.step(1), planner.finish()), (Err(error), Err(error)));
-    assert_eq!(planner.best().map(|best| start(&best)), Some(query.start));
+    assert_eq!(planner.best().map(|best| start(&best)), Some(ends.start));
 }
 
 /// An observer may pause steps, as often as it likes, but not a search that is to give its answer.
@@ -223,22 +223,22 @@ fn an_observer_may_pause_steps() {
         }
     }
     on_worlds(maps(1), |world, rng| {
-        let Some(query) = world.query(rng) else { return };
+        let Some(ends) = world.ends(rng) else { return };
         for (setup, mut planner) in world.planners() {
-            let answer = planner.find(query);
-            assert_eq!(planner.find_observed(query.snap(), &mut Unasked), answer);
-            planner.begin(query).expect("both ends are free");
+            let answer = planner.find(ends);
+            assert_eq!(planner.find_observed(ends.snap(), &mut Unasked), answer);
+            planner.begin(ends).expect("both ends are free");
             let (mut observer, mut steps) = (Pauses(0), 0);
             let paused = loop {
                 steps += 1;
                 match planner.step_observed(u64::MAX, &mut observer) {
                     Ok(None) => {}
-                    Ok(Some(outcome)) => break Ok(outcome),
+                    Ok(Some(answer)) => break Ok(answer),
                     Err(error) => break Err(error),
                 }
             };
-            assert_eq!(paused, answer, "{}", world.text(setup, &query));
-            assert_eq!(steps, 1 + observer.0.div_ceil(2), "{}", world.text(setup, &query));
+            assert_eq!(paused, answer, "{}", world.text(setup, &ends));
+            assert_eq!(steps, 1 + observer.0.div_ceil(2), "{}", world.text(setup, &ends));
         }
     });
 }

@@ -11,7 +11,7 @@ mod steps;
 use std::{fmt::Debug, ops::Range};
 
 use mediant::{
-    CornerRule, Cost, Engine, Guarantee, K, Map, Motion, Path, PlacementKind, Planner, Query, Rules, Setup,
+    CornerRule, Cost, Ends, Engine, Guarantee, K, Map, Motion, Path, PlacementKind, Planner, Rules, Setup,
     Space, Vertex,
     grid::Grid,
     search::{NodeEvent, Observer},
@@ -155,11 +155,11 @@ impl World {
 
     /// A query between two different free vertices; with a path between them, unless there hardly is such a
     /// pair.
-    fn query(&self, rng: &mut Rng) -> Option<Query> {
-        let draws: Vec<Query> =
-            (0..8).filter_map(|_| Some(Query::new(self.free(rng)?, self.free(rng)?))).collect();
+    fn ends(&self, rng: &mut Rng) -> Option<Ends> {
+        let draws: Vec<Ends> =
+            (0..8).filter_map(|_| Some(Ends::new(self.free(rng)?, self.free(rng)?))).collect();
         let is_good =
-            |query: &&Query| query.start != query.goal && self.optimum(query.start, query.goal).is_some();
+            |query: &&Ends| query.start != query.goal && self.optimum(query.start, query.goal).is_some();
         draws.iter().find(is_good).or(draws.first()).copied()
     }
 

@@ -1,24 +1,25 @@
-//! The search for the answer to a request.
+//! The search for the answer to a query.
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::Cost;
 
 use super::{
-    Request,
-    ends::{Ends, Pair},
+    Query,
+    end_sets::{EndSets, Pair},
     limits::{Limit, Stopped},
     watch::{Pause, Progress, Watch},
 };
 use crate::{
+    answer::Answer,
+    guarantee::Guarantee,
     metric::Metric,
     observer::Observer,
-    outcome::{Guarantee, Outcome},
     path::Path,
-    planner::{Planner, Status},
+    planner::{Planner, SearchStatus},
     query::QueryError,
 };
 
-/// The search for the answer to a [`Request`], by any planner, at once or in steps.
+/// The search for the answer to a [`Query`], by any planner, at once or in steps.
 ///
 /// Several starts and goals are pairs, which are searched one after another, in the order of the distance
 /// that no path between them can be shorter than; until that is more than the cost of the best path found. A
@@ -28,7 +29,7 @@ use crate::{
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
 /// use mediant_moves::{FiniteK, K};
-/// use mediant_search::{AStar, Hk, Outcome, Planner, Query, Request, Search, parts::Metric};
+/// use mediant_search::{AStar, Answer, Hk, Planner, Query, Search, parts::Metric};
 ///
 /// let map = AsciiMap::parse("
 ///     ...#.
@@ -37,19 +38,19 @@ use crate::{
 /// let k = FiniteK::N8;
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never)?;
 /// let (mut planner, metric) = (AStar::new(&graph, Hk), Metric::new(K::Finite(k))?);
-/// let request = Query::new((0, 0), (4, 1)).nearest();
-/// let mut search = Search::new(&graph, &metric, planner.guarantee(), request)?;
+/// let query = Query::new((0, 0), (4, 1)).nearest();
+/// let mut search = Search::new(&graph, &metric, planner.guarantee(), query)?;
 /// let answer = loop {
 ///     if let Some(answer) = search.step(&mut planner, &metric, 1, &mut ())? {
 ///         break answer;
 ///     }
 /// };
-/// assert!(matches!(answer, Outcome::Nearest(path) if path.waypoints().last() == Some(&(2, 1).into())));
+/// assert!(matches!(answer, Answer::Nearest(path) if path.waypoints().last() == Some(&(2, 1).into())));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct Search {
-    ends: Ends,
+    ends: EndSets,
     guarantee: Guarantee,
     /// The pair that is searched, and whether the planner has begun with it.
     next: usize,
@@ -64,7 +65,7 @@ pub struct Search {
     /// The least lower bound of those pairs.
     beyond_limit: Option<Cost>,
     /// The answer, or why the planner gave up.
-    answer: Option<Result<Outcome, QueryError>>,
+    answer: Option<Result<Answer, QueryError>>,
 }
 
 /// The state of a search from all goals at once to the only start: for a goal with a tolerance it replaces
@@ -92,17 +93,17 @@ impl Search {
     /// N(2) take [`FreeSpace::new`], since segments can connect more than N(2) does.
     ///
     /// # Errors
-    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the request says what to
+    /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the query says what to
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
     pub fn new<P: Placement>(
         space: &FreeSpace<P>,
         metric: &Metric,
         guarantee: Guarantee,
-        request: Request,
+        query: Query,
     ) -> Result<Self, QueryError> {
-        let wishes = request.into_wishes();
+        let wishes = query.into_wishes();
         let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { &Metric::Euclidean };
-        let ends = Ends::new(space, metric, bound, &wishes)?;
+        let ends = EndSets::new(space, metric, bound, &wishes)?;
         // A search that may be stopped leads forward to one of the goals first, since only then the best so
         // far begins at the start.
         let backward = match ends.only_start() {
@@ -125,7 +126,7 @@ impl Search {
             nearest: (Cost::MAX, Vertex::new(0, 0)),
         };
         Ok(Self {
-            answer: ends.pairs.is_empty().then_some(Ok(Outcome::Unreachable)),
+            answer: ends.pairs.is_empty().then_some(Ok(Answer::Unreachable)),
             ends,
             guarantee,
             next: 0,
@@ -150,7 +151,7 @@ impl Search {
         metric: &Metric,
         expansions: u64,
         observer: &mut impl Observer,
-    ) -> Result<Option<Outcome>, QueryError> {
+    ) -> Result<Option<Answer>, QueryError> {
         self.progress.step_end = self.progress.expansions.saturating_add(expansions);
         self.progress.is_step = true;
         self.run(planner, metric, observer)
@@ -165,7 +166,7 @@ impl Search {
         planner: &mut impl Planner,
         metric: &Metric,
         observer: &mut impl Observer,
-    ) -> Result<Outcome, QueryError> {
+    ) -> Result<Answer, QueryError> {
         (self.progress.step_end, self.progress.is_step) = (u64::MAX, false);
         loop {
             if let Some(answer) = self.run(planner, metric, observer)? {
@@ -180,7 +181,7 @@ impl Search {
         planner: &mut impl Planner,
         metric: &Metric,
         observer: &mut impl Observer,
-    ) -> Result<Option<Outcome>, QueryError> {
+    ) -> Result<Option<Answer>, QueryError> {
         while self.answer.is_none() {
             let Some(&pair) = self.pair() else {
                 self.conclude();
@@ -194,13 +195,15 @@ impl Search {
                 }
             };
             match (status, self.progress.pause.take()) {
-                (Status::Searching, None | Some(Pause::Step)) => return Ok(None),
-                (Status::Searching, Some(Pause::Limit(Limit::Cost))) => {
+                (SearchStatus::Searching, None | Some(Pause::Step)) => return Ok(None),
+                (SearchStatus::Searching, Some(Pause::Limit(Limit::Cost))) => {
                     self.leave_beyond_limit(self.current_bound(pair), planner);
                 }
-                (Status::Searching, Some(Pause::Limit(limit))) => self.stop(limit, planner),
-                (Status::Searching, Some(Pause::Beaten)) | (Status::Unreachable, _) => self.leave(),
-                (Status::Found, _) => self.found(pair, planner),
+                (SearchStatus::Searching, Some(Pause::Limit(limit))) => self.stop(limit, planner),
+                (SearchStatus::Searching, Some(Pause::Beaten)) | (SearchStatus::Unreachable, _) => {
+                    self.leave();
+                }
+                (SearchStatus::Found, _) => self.found(pair, planner),
             }
         }
         self.answer.clone().transpose()
@@ -218,17 +221,17 @@ impl Search {
         planner: &mut impl Planner,
         metric: &Metric,
         observer: &mut impl Observer,
-    ) -> Result<Status, QueryError> {
+    ) -> Result<SearchStatus, QueryError> {
         if !self.has_begun {
-            let Pair { query, least, .. } = pair;
-            self.progress.goal = query.goal;
-            self.progress.nearest = (metric.distance(query.start.to(query.goal)), query.start);
+            let Pair { ends, least, .. } = pair;
+            self.progress.goal = ends.goal;
+            self.progress.nearest = (metric.distance(ends.start.to(ends.goal)), ends.start);
             self.progress.least = least;
             self.progress.pause = self.progress.reason();
             // The number of expansions does not forbid a path that takes none.
             let waits = |pause| !matches!(pause, Pause::Step | Pause::Limit(Limit::Expansions));
             if self.progress.pause.is_some_and(waits) {
-                return Ok(Status::Searching);
+                return Ok(SearchStatus::Searching);
             }
         }
         let mut watch = Watch { progress: &mut self.progress, metric, observer };
@@ -236,15 +239,15 @@ impl Search {
             && self.next == pairs
             && !self.has_begun
         {
-            let goals: Vec<Vertex> = self.ends.pairs.iter().map(|pair| pair.query.goal).collect();
+            let goals: Vec<Vertex> = self.ends.pairs.iter().map(|pair| pair.ends.goal).collect();
             let status = planner.begin_from(&goals, start, &mut watch);
             self.backward = status.map_or(Backward::No, |_| Backward::To(start));
             self.has_begun = status.is_some();
         }
         if !self.has_begun {
-            let status = planner.begin(pair.query, &mut watch)?;
+            let status = planner.begin(pair.ends, &mut watch)?;
             self.has_begun = true;
-            if status != Status::Searching {
+            if status != SearchStatus::Searching {
                 return Ok(status);
             }
         }
@@ -265,7 +268,7 @@ impl Search {
     fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
         let path = match self.backward {
             Backward::To(start) => planner.path_to(start).map(|path| path.reversed()),
-            Backward::No | Backward::After(..) => planner.path_to(pair.query.goal),
+            Backward::No | Backward::After(..) => planner.path_to(pair.ends.goal),
         };
         if let Some(path) = path {
             let cost = self.guarantee.cost(&path);
@@ -296,23 +299,23 @@ impl Search {
 
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
-        let start = self.ends.pairs.get(self.next).map_or(self.ends.start, |pair| pair.query.start);
+        let start = self.ends.pairs.get(self.next).map_or(self.ends.start, |pair| pair.ends.start);
         self.path_to(planner, self.progress.nearest.1).unwrap_or_else(|| Path::new(vec![start]))
     }
 
     fn stop(&mut self, by: Limit, planner: &mut impl Planner) {
         let (lower_bound, best) = (self.lower_bound(), self.best(planner));
-        self.answer = Some(Ok(Outcome::Stopped(Stopped { by, best, lower_bound })));
+        self.answer = Some(Ok(Answer::Stopped(Stopped { by, best, lower_bound })));
     }
 
     /// Makes the answer after the last pair.
     fn conclude(&mut self) {
         let lower_bound = self.lower_bound();
         self.answer = Some(Ok(match (self.found.take(), self.partial.take()) {
-            (Some(Found { path, .. }), _) if self.ends.are_nearest => Outcome::Nearest(path),
-            (Some(Found { path, .. }), _) => Outcome::Found(path),
-            (None, Some((_, best))) => Outcome::Stopped(Stopped { by: Limit::Cost, best, lower_bound }),
-            (None, None) => Outcome::Unreachable,
+            (Some(Found { path, .. }), _) if self.ends.are_nearest => Answer::Nearest(path),
+            (Some(Found { path, .. }), _) => Answer::Found(path),
+            (None, Some((_, best))) => Answer::Stopped(Stopped { by: Limit::Cost, best, lower_bound }),
+            (None, None) => Answer::Unreachable,
         }));
     }
 
@@ -320,9 +323,9 @@ impl Search {
     #[must_use]
     pub fn best(&self, planner: &mut impl Planner) -> Path {
         match &self.answer {
-            Some(Ok(Outcome::Found(path) | Outcome::Nearest(path))) => return path.clone(),
-            Some(Ok(Outcome::Stopped(stopped))) => return stopped.best.clone(),
-            Some(Ok(Outcome::Unreachable) | Err(_)) | None => {}
+            Some(Ok(Answer::Found(path) | Answer::Nearest(path))) => return path.clone(),
+            Some(Ok(Answer::Stopped(stopped))) => return stopped.best.clone(),
+            Some(Ok(Answer::Unreachable) | Err(_)) | None => {}
         }
         match (&self.found, &self.partial) {
             (Some(found), _) => found.path.clone(),

@@ -1,8 +1,8 @@
 //! Several ends, tolerances, nearest and snapped ends.
 
 use mediant::{
-    CornerRule, Engine, Guarantee, K, Limit, Limits, Map, Motion, Outcome, Path, PlacementKind, Planner,
-    Query, Request, Rules, Setup, Smoothing, Vertex, errors::QueryError, grid::Grid, search::End,
+    Answer, CornerRule, Ends, Engine, Guarantee, K, Limit, Limits, Map, Motion, Path, PlacementKind, Planner,
+    Query, Rules, Setup, Smoothing, Vertex, errors::QueryError, grid::Grid, search::End,
 };
 use mediant_oracle::{Rng, on_all_cores, random_vertex};
 
@@ -10,7 +10,7 @@ use super::{
     TIE, World, end, is_exact, maps, motion, motions, on_worlds, random_grid, start, steps::in_steps,
 };
 
-/// A path that a request asks for, if no other is better.
+/// A path that a query asks for, if no other is better.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     start: Vertex,
@@ -30,13 +30,13 @@ fn pairs(world: &World, starts: &[Vertex], goals: &[Vertex]) -> Vec<Pair> {
     goals.iter().flat_map(|&goal| to(goal)).collect()
 }
 
-/// A request, with the ends that it asks for, in order.
+/// A query, with the ends that it asks for, in order.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
-    pub(super) request: Request,
+    pub(super) query: Query,
     pub(super) starts: Vec<Vertex>,
     pub(super) goals: Vec<Vertex>,
-    /// Whether the goals are not those of the request, but the nearest that can be reached.
+    /// Whether the goals are not those of the query, but the nearest that can be reached.
     pub(super) are_nearest: bool,
 }
 
@@ -44,7 +44,7 @@ impl Asked {
     /// Whether the goals are those around a goal with a tolerance, and so may be searched all at once: then
     /// the path may be any of the shortest ones.
     fn is_any(&self) -> bool {
-        self.starts.len() == 1 && self.goals.len() > self.request.goals().len() && !self.are_nearest
+        self.starts.len() == 1 && self.goals.len() > self.query.goals().len() && !self.are_nearest
     }
 }
 
@@ -53,17 +53,17 @@ impl Asked {
 pub(super) fn check(world: &World, setup: Setup, planner: &mut Planner, asked: &Asked) {
     let text = || world.text(setup, asked);
     let all = pairs(world, &asked.starts, &asked.goals);
-    let answer = planner.find(asked.request.clone());
-    assert_eq!(in_steps(planner, &asked.request, 3).map(|(outcome, _)| outcome), answer, "{}", text());
+    let answer = planner.find(asked.query.clone());
+    assert_eq!(in_steps(planner, &asked.query, 3).map(|(answer, _)| answer), answer, "{}", text());
     let shortest = all.iter().map(|pair| pair.cost).reduce(f64::min);
-    let (Some(shortest), Ok(outcome)) = (shortest, &answer) else {
+    let (Some(shortest), Ok(answer)) = (shortest, &answer) else {
         let gave_up = matches!(answer, Err(QueryError::GaveUp { .. })) && setup.engine.kind() == Engine::Chpa;
-        assert!(gave_up || all.is_empty() && answer == Ok(Outcome::Unreachable), "{answer:?}: {}", text());
+        assert!(gave_up || all.is_empty() && answer == Ok(Answer::Unreachable), "{answer:?}: {}", text());
         return;
     };
-    let path = match outcome {
-        Outcome::Found(path) if !asked.are_nearest => path,
-        Outcome::Nearest(path) if asked.are_nearest => path,
+    let path = match answer {
+        Answer::Found(path) if !asked.are_nearest => path,
+        Answer::Nearest(path) if asked.are_nearest => path,
         other => panic!("{other:?}: {}", text()),
     };
     let ends = (start(path), end(path));
@@ -100,7 +100,7 @@ fn check_limited(
     let is_exact = is_exact(planner);
     // Over segments the oracle's paths are the shortest at any angle.
     let is_bound = |bound: f64| !is_exact && !world.over_segments || bound <= shortest * (1.0 + 1e-9);
-    planner.begin(asked.request.clone()).expect("the ends were checked");
+    planner.begin(asked.query.clone()).expect("the ends were checked");
     let mut last = 0.0;
     while let Ok(None) = planner.step(3) {
         let (bound, best) = (planner.lower_bound(), planner.best().expect("a search was begun"));
@@ -112,10 +112,10 @@ fn check_limited(
     }
     let answer = planner.finish().expect("it was found before");
     for limit in [shortest * (1.0 - 1e-6), shortest, shortest * (1.0 + 1e-6)] {
-        let request = asked.request.clone().within(Limits::new().cost(limit));
-        let limited = planner.find(request);
+        let query = asked.query.clone().within(Limits::new().cost(limit));
+        let limited = planner.find(query);
         if is_exact && limit < shortest {
-            let Ok(Outcome::Stopped(stopped)) = limited else { panic!("{limited:?}: {}", text()) };
+            let Ok(Answer::Stopped(stopped)) = limited else { panic!("{limited:?}: {}", text()) };
             assert_eq!(stopped.by, Limit::Cost, "{}", text());
             assert!(is_bound(stopped.lower_bound), "{stopped:?}: {}", text());
             assert!(stopped.lower_bound > limit * (1.0 - 1e-6), "{stopped:?}: {}", text());
@@ -125,7 +125,7 @@ fn check_limited(
             }
         } else if is_exact {
             match (&limited, asked.is_any()) {
-                (Ok(Outcome::Found(path)), true) => {
+                (Ok(Answer::Found(path)), true) => {
                     assert!((path.cost() - shortest).abs() < 1e-9 * (1.0 + shortest), "{}", text());
                 }
                 _ => assert_eq!(limited.as_ref(), Ok(&answer), "{}", text()),
@@ -144,9 +144,9 @@ fn check_nearest_of_pairs(
 ) {
     let distance = |path: &Path| pairs.iter().map(|pair| world.distance(end(path), pair.goal)).min();
     let alone = pairs.iter().map(|pair| {
-        let query = Query::new(pair.start, pair.goal);
-        match planner.find(query.within(Limits::new().cost(limit))) {
-            Ok(Outcome::Stopped(stopped)) => world.distance(end(&stopped.best), pair.goal),
+        let ends = Ends::new(pair.start, pair.goal);
+        match planner.find(ends.within(Limits::new().cost(limit))) {
+            Ok(Answer::Stopped(stopped)) => world.distance(end(&stopped.best), pair.goal),
             answer => panic!("{answer:?}: {}", world.text(setup, pair)),
         }
     });
@@ -168,15 +168,15 @@ pub(super) fn blocked(world: &World, rng: &mut Rng) -> Option<Vertex> {
     (0..40).map(|_| random_vertex(rng, &world.grid, placement)).find(|&at| !world.space.is_free(at))
 }
 
-/// A request for the vertices nearest to these goals, if none of them can be reached; also where a tolerance
+/// A query for the vertices nearest to these goals, if none of them can be reached; also where a tolerance
 /// is asked for that holds no other vertex.
 pub(super) fn asked_nearest(world: &World, starts: Vec<Vertex>, goals: Vec<Vertex>) -> Asked {
-    let request = Request::between(starts.clone(), goals.clone()).nearest();
+    let query = Query::between(starts.clone(), goals.clone()).nearest();
     let has_tolerance = goals.len() == 1 && (starts[0].x + goals[0].y) % 2 == 0;
-    let request = if has_tolerance { request.tolerance(0.5) } else { request };
+    let query = if has_tolerance { query.tolerance(0.5) } else { query };
     let has_way = !pairs(world, &starts, &goals).is_empty();
     let goals = if has_way { goals } else { nearest(world, &starts, &goals) };
-    Asked { request, starts, goals, are_nearest: !has_way }
+    Asked { query, starts, goals, are_nearest: !has_way }
 }
 
 #[test]
@@ -202,9 +202,9 @@ fn where_there_is_no_way_the_nearest_vertex_is_reached() {
             for asked in &cases {
                 check(world, setup, &mut planner, asked);
                 if let (false, [start], [goal]) = (asked.are_nearest, &asked.starts[..], &asked.goals[..]) {
-                    let query = Query::new(*start, *goal);
-                    assert_eq!(planner.find(query.nearest()), planner.find(query));
-                    assert_eq!(planner.find(query.nearest().tolerance(0.5)), planner.find(query));
+                    let ends = Ends::new(*start, *goal);
+                    assert_eq!(planner.find(ends.nearest()), planner.find(ends));
+                    assert_eq!(planner.find(ends.nearest().tolerance(0.5)), planner.find(ends));
                 }
             }
         }
@@ -219,7 +219,7 @@ fn where_there_is_no_way_the_nearest_vertex_is_reached() {
 fn of_the_nearest_vertices_the_first_is_reached() {
     let space =
         Map::from_rows(["...", "#.#"]).expect("a map").space(Motion::centers(K::N8)).expect("a space");
-    let query = Query::new((0, 0), (2, 1));
+    let ends = Ends::new((0, 0), (2, 1));
     for setup in
         Setup::all(Motion::new(K::N8, space.motion().rules)).filter(|setup| setup.smoothing.is_none())
     {
@@ -227,9 +227,9 @@ fn of_the_nearest_vertices_the_first_is_reached() {
         if !is_exact(&planner) {
             continue;
         }
-        for request in [query.nearest(), query.nearest().tolerance(0.5)] {
-            let answer = planner.find(request).expect("the goal may be blocked");
-            let Outcome::Nearest(path) = answer else { panic!("{setup}: {answer:?}") };
+        for query in [ends.nearest(), ends.nearest().tolerance(0.5)] {
+            let answer = planner.find(query).expect("the goal may be blocked");
+            let Answer::Nearest(path) = answer else { panic!("{setup}: {answer:?}") };
             assert_eq!(end(&path), (2, 0).into(), "{setup}");
         }
     }
@@ -243,28 +243,28 @@ fn segments_between_two_blocked_cells_are_paths() {
     let space = map.space(Motion::new(K::N4, rules)).expect("a space");
     for engine in [Engine::Theta, Engine::LazyTheta] {
         let mut planner = space.planner(engine).expect("a planner");
-        let near = Query::new((0, 0), (1, 1));
+        let near = Ends::new((0, 0), (1, 1));
         assert!(space.sees(near.start, near.goal));
-        for request in [Request::from(near), near.nearest(), near.tolerance(0.5)] {
-            let answer = planner.find(request).expect("free ends");
-            assert_eq!(answer, Outcome::Found(Path::new(vec![near.start, near.goal])), "{engine}");
+        for query in [Query::from(near), near.nearest(), near.tolerance(0.5)] {
+            let answer = planner.find(query).expect("free ends");
+            assert_eq!(answer, Answer::Found(Path::new(vec![near.start, near.goal])), "{engine}");
         }
         // The goal that is nearest is one to which N(2) has no path.
-        let request = Request::between([(0, 0)], [(4, 2), (1, 1)]).within(Limits::new().expansions(0));
-        let Ok(Outcome::Stopped(stopped)) = planner.find(request) else { panic!("{engine}: not stopped") };
+        let query = Query::between([(0, 0)], [(4, 2), (1, 1)]).within(Limits::new().expansions(0));
+        let Ok(Answer::Stopped(stopped)) = planner.find(query) else { panic!("{engine}: not stopped") };
         assert!(stopped.lower_bound <= 2_f64.sqrt(), "{engine}: {stopped:?}");
-        let answer = planner.find(Request::between([(0, 0)], [(4, 2), (1, 1)])).expect("free ends");
+        let answer = planner.find(Query::between([(0, 0)], [(4, 2), (1, 1)])).expect("free ends");
         assert_eq!(answer.path().map(end), Some((1, 1).into()), "{engine}");
         // Moves of N(2) lead nowhere.
         let alone = space.planner(Engine::AStar).expect("a planner").find(near);
-        assert_eq!(alone, Ok(Outcome::Unreachable), "{engine}");
+        assert_eq!(alone, Ok(Answer::Unreachable), "{engine}");
     }
     // Nor do they where they are smoothed afterwards.
     let smoothed =
         Setup { smoothing: Some(Smoothing::Taut), ..Setup::new(Engine::AStar, Motion::new(K::N4, rules)) };
     let mut planner = smoothed.prepare(&space).expect("an index").planner();
     let answer = planner.find(Query::new((0, 0), (1, 1)).nearest()).expect("free ends");
-    assert_eq!(answer, Outcome::Nearest(Path::new(vec![(0, 0).into()])));
+    assert_eq!(answer, Answer::Nearest(Path::new(vec![(0, 0).into()])));
 }
 
 #[test]
@@ -281,8 +281,8 @@ fn of_several_ends_the_best_are_chosen() {
             if rng.chance(20) {
                 starts.push(starts[0]);
             }
-            let request = Request::between(starts.clone(), goals.clone());
-            check(world, setup, &mut planner, &Asked { request, starts, goals, are_nearest: false });
+            let query = Query::between(starts.clone(), goals.clone());
+            check(world, setup, &mut planner, &Asked { query, starts, goals, are_nearest: false });
         }
     });
 }
@@ -304,12 +304,12 @@ fn what_cannot_be_the_best_is_not_searched() {
                 if pairs(world, &[start], &goals).len() < 2 || !is_first(start, goals) {
                     continue;
                 }
-                let expansions = |planner: &mut Planner, request: Request| {
-                    let cost = planner.find(request).ok().and_then(|outcome| outcome.cost());
+                let expansions = |planner: &mut Planner, query: Query| {
+                    let cost = planner.find(query).ok().and_then(|answer| answer.cost());
                     (cost, planner.expansions())
                 };
-                let both = expansions(&mut planner, Request::between([start], [second, first])).1;
-                let (Some(cost), alone) = expansions(&mut planner, Request::between([start], [first])) else {
+                let both = expansions(&mut planner, Query::between([start], [second, first])).1;
+                let (Some(cost), alone) = expansions(&mut planner, Query::between([start], [first])) else {
                     continue;
                 };
                 // The costs of smoothed paths are not those of the search.
@@ -362,11 +362,11 @@ fn ties_are_decided_by_the_order_of_the_ends() {
             }
             ties += usize::from(goal.x != middle);
             for goals in [goals.clone(), vec![goal, image(goal)]] {
-                let request = Request::between([at], goals.clone());
-                let asked = Asked { request, starts: vec![at], goals: goals.clone(), are_nearest: false };
+                let query = Query::between([at], goals.clone());
+                let asked = Asked { query, starts: vec![at], goals: goals.clone(), are_nearest: false };
                 check(&world, setup, &mut planner, &asked);
-                let request = Request::between(goals.clone(), [at]);
-                let asked = Asked { request, starts: goals, goals: vec![at], are_nearest: false };
+                let query = Query::between(goals.clone(), [at]);
+                let asked = Asked { query, starts: goals, goals: vec![at], are_nearest: false };
                 check(&world, setup, &mut planner, &asked);
             }
             if let Some(wall) = blocked(&world, rng).filter(|_| rng.chance(50)) {
@@ -385,21 +385,21 @@ fn a_tolerance_is_the_radius_of_a_disc() {
             let Some((start, goal)) = world.free(rng).zip(world.free(rng)) else { continue };
             let goal = if rng.chance(50) { blocked(world, rng).unwrap_or(goal) } else { goal };
             for radius in [0.0, 0.5, 1.0, 1.5, 3.7, 1e9] {
-                let request = Query::new(start, goal).tolerance(radius);
+                let query = Query::new(start, goal).tolerance(radius);
                 // The square of a radius is exact enough: no integer is as near to 3.7² as its rounding.
                 let is_near = |at: &Vertex| at.to(goal).norm_squared() as f64 <= radius * radius;
                 let goals: Vec<Vertex> = world.oracle.free_vertices().filter(is_near).collect();
                 if goals.is_empty() {
                     let error = Err(QueryError::Blocked { end: End::Goal, at: goal });
-                    assert_eq!(planner.find(request.clone()), error, "{}", world.text(setup, &request));
+                    assert_eq!(planner.find(query.clone()), error, "{}", world.text(setup, &query));
                     if radius > 1.0 {
-                        let request = request.nearest();
+                        let query = query.nearest();
                         let goals = nearest(world, &[start], &[goal]);
-                        let asked = Asked { request, starts: vec![start], goals, are_nearest: true };
+                        let asked = Asked { query, starts: vec![start], goals, are_nearest: true };
                         check(world, setup, &mut planner, &asked);
                     }
                 } else {
-                    let asked = Asked { request, starts: vec![start], goals, are_nearest: false };
+                    let asked = Asked { query, starts: vec![start], goals, are_nearest: false };
                     check(world, setup, &mut planner, &asked);
                 }
             }
@@ -408,13 +408,13 @@ fn a_tolerance_is_the_radius_of_a_disc() {
             let disc =
                 |goal: Vertex| world.oracle.free_vertices().filter(move |at| at.to(goal).norm_squared() <= 4);
             if disc(goal).next().is_some() {
-                let request = Request::between([start], [other, goal]).tolerance(2.0);
+                let query = Query::between([start], [other, goal]).tolerance(2.0);
                 let goals = disc(other).chain(disc(goal)).collect();
                 check(
                     world,
                     setup,
                     &mut planner,
-                    &Asked { request, starts: vec![start], goals, are_nearest: false },
+                    &Asked { query, starts: vec![start], goals, are_nearest: false },
                 );
             }
         }
@@ -432,8 +432,8 @@ fn paths_at_any_angle_can_be_equally_long_in_different_pieces() {
     let (start, straight, bent) = (Vertex::new(0, 0), Vertex::new(12, 4), Vertex::new(8, 8));
     for (setup, mut planner) in world.planners() {
         for goals in [vec![straight, bent], vec![bent, straight]] {
-            let request = Request::between([start], goals.clone());
-            let asked = Asked { request, starts: vec![start], goals, are_nearest: false };
+            let query = Query::between([start], goals.clone());
+            let asked = Asked { query, starts: vec![start], goals, are_nearest: false };
             check(&world, setup, &mut planner, &asked);
         }
     }

@@ -8,7 +8,7 @@ use std::{
 use mediant_grid::{Interrupt, StoppedBy, Vertex, names};
 use mediant_moves::Cost;
 
-use crate::{limit::greatest_cost, outcome::Measured, path::Path, query::QueryError};
+use crate::{answer::Measured, limit::greatest_cost, path::Path, query::QueryError};
 
 /// Limits of a search. None is set at first; the first one that is met stops the search.
 ///

@@ -1,4 +1,4 @@
-//! From which vertex to which a request asks for a path.
+//! From which vertex to which a query asks for a path.
 
 use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::Cost;
@@ -7,39 +7,39 @@ use super::{Wishes, nearest::nearest};
 use crate::{
     limit::with_room,
     metric::Metric,
-    query::{End, Query, QueryError},
+    query::{End, Ends, QueryError},
 };
 
-/// A path that answers the request, if it is the shortest.
+/// A path that answers the query, if it is the shortest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pair {
-    pub(super) query: Query,
+    pub(super) ends: Ends,
     /// No path between the two is shorter: the straight line, or h_k where paths are over N(k).
     pub(super) least: Cost,
     /// Its place in the order of goals, then of starts.
     pub(super) rank: (u32, u32),
 }
 
-/// The pairs of start and goal that a request asks for.
+/// The pairs of start and goal that a query asks for.
 #[derive(Debug)]
-pub(super) struct Ends {
+pub(super) struct EndSets {
     /// The connected pairs, by their least cost, then by rank.
     pub(super) pairs: Vec<Pair>,
     /// The first start.
     pub(super) start: Vertex,
-    /// Whether the goals are the vertices nearest to those of the request.
+    /// Whether the goals are the vertices nearest to those of the query.
     pub(super) are_nearest: bool,
 }
 
-impl Ends {
+impl EndSets {
     /// The one start that all pairs have, if there are several pairs, and it is no goal itself.
     pub(super) fn only_start(&self) -> Option<Vertex> {
         let first = self.pairs.first().filter(|first| self.pairs.len() > 1 && first.least != Cost::ZERO)?;
-        let start = first.query.start;
-        self.pairs.iter().all(|pair| pair.query.start == start).then_some(start)
+        let start = first.ends.start;
+        self.pairs.iter().all(|pair| pair.ends.start == start).then_some(start)
     }
 
-    /// The pairs of a request. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
+    /// The pairs of a query. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
     /// the metric by which no path is shorter.
     pub(super) fn new<P: Placement>(
         space: &FreeSpace<P>,
@@ -77,13 +77,13 @@ impl Ends {
                 if space.connected(start, goal) {
                     let least = bound.estimate(start.to(goal));
                     let rank = (goal_rank, start_rank);
-                    self.pairs.push(Pair { query: Query::new(start, goal), least, rank });
+                    self.pairs.push(Pair { ends: Ends::new(start, goal), least, rank });
                 }
             }
         }
     }
 
-    /// Adds the vertices that can be reached and are nearest to a goal of the request.
+    /// Adds the vertices that can be reached and are nearest to a goal of the query.
     fn add_nearest<P: Placement>(
         &mut self,
         space: &FreeSpace<P>,
@@ -110,7 +110,7 @@ impl Ends {
     }
 }
 
-/// The vertices at which paths may begin or end: the free ones among the ends of a request, those within the
+/// The vertices at which paths may begin or end: the free ones among the ends of a query, those within the
 /// tolerance of a goal, and those to which blocked ends are moved.
 fn free_ends<P: Placement>(
     space: &FreeSpace<P>,

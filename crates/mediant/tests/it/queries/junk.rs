@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, atomic::AtomicBool};
 
-use mediant::{Limit, Limits, Outcome, Path, Planner, Request, Setup, Vertex};
+use mediant::{Answer, Limit, Limits, Path, Planner, Query, Setup, Vertex};
 use mediant_oracle::Rng;
 
 use super::{World, end, maps, on_worlds, start};
@@ -23,22 +23,22 @@ fn number(rng: &mut Rng) -> f64 {
     if rng.chance(20) { rng.pick(&odd).copied().unwrap_or(0.0) } else { f64::from(rng.below(60)) / 2.0 }
 }
 
-fn request(world: &World, rng: &mut Rng) -> (Request, f64) {
+fn query(world: &World, rng: &mut Rng) -> (Query, f64) {
     let some = |rng: &mut Rng| -> Vec<Vertex> {
         let count = if rng.chance(60) { 1 } else { rng.below(4) };
         (0..count).map(|_| vertex(world, rng)).collect()
     };
     let (starts, goals) = (some(rng), some(rng));
-    let mut request = Request::between(starts, goals);
+    let mut query = Query::between(starts, goals);
     let (mut limits, mut limit) = (Limits::new(), f64::INFINITY);
     if rng.chance(70) {
-        request = request.snap();
+        query = query.snap();
     }
     if rng.chance(60) {
-        request = request.nearest();
+        query = query.nearest();
     }
     if rng.chance(40) {
-        request = request.tolerance(number(rng));
+        query = query.tolerance(number(rng));
     }
     if rng.chance(40) {
         limit = number(rng);
@@ -54,31 +54,31 @@ fn request(world: &World, rng: &mut Rng) -> (Request, f64) {
         let is_over = rng.chance(50);
         limits = limits.deadline(move || is_over);
     }
-    (request.within(limits), limit)
+    (query.within(limits), limit)
 }
 
 /// Checks an answer by itself.
-fn check(world: &World, setup: Setup, request: &Request, limit: f64, answer: &Outcome) {
-    let legal = |path: &Path| world.check_path(setup, path, (start(path), end(path)), request);
+fn check(world: &World, setup: Setup, query: &Query, limit: f64, answer: &Answer) {
+    let legal = |path: &Path| world.check_path(setup, path, (start(path), end(path)), query);
     match answer {
-        Outcome::Found(path) | Outcome::Nearest(path) => {
+        Answer::Found(path) | Answer::Nearest(path) => {
             legal(path);
-            assert!(path.cost() <= limit * (1.0 + 1e-6), "{path}: {}", world.text(setup, request));
+            assert!(path.cost() <= limit * (1.0 + 1e-6), "{path}: {}", world.text(setup, query));
         }
-        Outcome::Stopped(stopped) => {
+        Answer::Stopped(stopped) => {
             legal(&stopped.best);
             let is_bound = stopped.lower_bound >= 0.0 && stopped.lower_bound.is_finite();
-            assert!(is_bound, "{stopped:?}: {}", world.text(setup, request));
+            assert!(is_bound, "{stopped:?}: {}", world.text(setup, query));
             let by_cost = stopped.by == Limit::Cost;
-            assert!(!by_cost || limit < f64::INFINITY, "{stopped:?}: {}", world.text(setup, request));
+            assert!(!by_cost || limit < f64::INFINITY, "{stopped:?}: {}", world.text(setup, query));
         }
         _ => {}
     }
 }
 
 /// The answer in steps of random sizes, with a look at the state between them.
-fn in_steps(planner: &mut Planner, request: &Request, rng: &mut Rng) -> Option<Outcome> {
-    planner.begin(request.clone()).ok()?;
+fn in_steps(planner: &mut Planner, query: &Query, rng: &mut Rng) -> Option<Answer> {
+    planner.begin(query.clone()).ok()?;
     loop {
         let expansions = planner.expansions();
         if let Some(answer) = planner.step(u64::from(rng.below(7))).ok()? {
@@ -95,22 +95,17 @@ fn nothing_that_is_asked_is_too_odd() {
         let mut answers = [0_u32; 4];
         for (setup, mut planner) in world.planners() {
             for _ in 0..8 {
-                let (request, limit) = request(world, rng);
-                let answer = planner.find(request.clone());
-                let text = || world.text(setup, &request);
-                assert_eq!(
-                    in_steps(&mut planner, &request, rng).as_ref(),
-                    answer.as_ref().ok(),
-                    "{}",
-                    text()
-                );
-                assert_eq!(planner.find(request.clone()), answer, "{}", text());
+                let (query, limit) = query(world, rng);
+                let answer = planner.find(query.clone());
+                let text = || world.text(setup, &query);
+                assert_eq!(in_steps(&mut planner, &query, rng).as_ref(), answer.as_ref().ok(), "{}", text());
+                assert_eq!(planner.find(query.clone()), answer, "{}", text());
                 let Ok(answer) = answer else { continue };
-                check(world, setup, &request, limit, &answer);
+                check(world, setup, &query, limit, &answer);
                 answers[match answer {
-                    Outcome::Found(_) => 0,
-                    Outcome::Nearest(_) => 1,
-                    Outcome::Stopped(_) => 2,
+                    Answer::Found(_) => 0,
+                    Answer::Nearest(_) => 1,
+                    Answer::Stopped(_) => 2,
                     _ => 3,
                 }] += 1;
             }

@@ -1,4 +1,4 @@
-//! The answer to a query, and what is guaranteed of it.
+//! The guarantee of an engine for the length of its paths.
 
 use std::fmt;
 
@@ -7,91 +7,8 @@ use mediant_moves::{BOUND_WITHOUT_CORNER_CUTTING, Cost, FiniteK, bound_at_center
 
 use crate::{
     path::Path,
-    request::Stopped,
     segment::{length_cost, move_cost},
 };
-
-/// The answer to a query. Other kinds of answers may come.
-///
-/// As text it says which answer it is, and what the path measures, in cells.
-///
-/// ```
-/// use mediant_search::{Outcome, Path};
-///
-/// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
-/// let answer = Outcome::Found(path);
-/// assert_eq!(answer.to_string(), "found: 3 waypoints, 5.83 cells");
-/// match &answer {
-///     Outcome::Found(path) => assert_eq!(path.len(), 3),
-///     Outcome::Nearest(path) => println!("not there, but near: {path}"),
-///     Outcome::Unreachable => println!("there is no way"),
-///     Outcome::Stopped(stopped) => println!("so far {}", stopped.best),
-///     _ => {}
-/// }
-/// assert_eq!(answer.into_path().map(|path| path.len()), Some(3));
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Outcome {
-    /// A path, as good as the engine's [`Guarantee`] says.
-    Found(Path),
-    /// There is no path.
-    Unreachable,
-    /// There is no path; this one leads to the reachable vertex that is nearest to the goal, if that was
-    /// [asked for](crate::Request::nearest).
-    Nearest(Path),
-    /// A limit stopped the search.
-    Stopped(Stopped),
-}
-
-impl Outcome {
-    /// The path that was asked for: to the goal, or to the nearest vertex. That of a stopped search is
-    /// [`Stopped::best`].
-    #[must_use]
-    pub const fn path(&self) -> Option<&Path> {
-        match self {
-            Self::Found(path) | Self::Nearest(path) => Some(path),
-            Self::Unreachable | Self::Stopped(_) => None,
-        }
-    }
-
-    /// The length of the path in cells, if there is one.
-    #[must_use]
-    pub fn cost(&self) -> Option<f64> {
-        self.path().map(Path::cost)
-    }
-
-    /// The path, if there is one, without a copy.
-    #[must_use]
-    pub fn into_path(self) -> Option<Path> {
-        match self {
-            Self::Found(path) | Self::Nearest(path) => Some(path),
-            Self::Unreachable | Self::Stopped(_) => None,
-        }
-    }
-}
-
-/// As `found: 3 waypoints, 11.07 cells`.
-impl fmt::Display for Outcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Found(path) => write!(f, "found: {}", Measured(path)),
-            Self::Unreachable => f.write_str("unreachable"),
-            Self::Nearest(path) => write!(f, "unreachable, the nearest is: {}", Measured(path)),
-            Self::Stopped(stopped) => stopped.fmt(f),
-        }
-    }
-}
-
-/// The size of a path, in words.
-pub(crate) struct Measured<'a>(pub(crate) &'a Path);
-
-impl fmt::Display for Measured<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (count, cost) = (self.0.len(), self.0.cost());
-        write!(f, "{count} waypoint{}, {cost:.2} cells", if count == 1 { "" } else { "s" })
-    }
-}
 
 /// An engine's guarantee of the length of its paths. Every engine finds a path whenever there is one; one
 /// that may fail says so by [`QueryError::GaveUp`](crate::QueryError::GaveUp).

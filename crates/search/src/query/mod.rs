@@ -1,38 +1,46 @@
-//! Requests: queries with several ends, a tolerance, limits.
+//! Queries: the ends of a path, and wishes beyond them.
 
+mod end_sets;
 mod ends;
+mod error;
 mod limits;
 mod nearest;
 mod search;
 mod watch;
 
+use std::fmt;
+
 use mediant_grid::Vertex;
 
 pub use self::{
+    ends::{End, Ends},
+    error::QueryError,
     limits::{Limit, Limits, Stopped},
     search::Search,
 };
-use crate::query::Query;
 
-/// A query with wishes: more than one start or goal, a tolerance, what to do where there is no way, limits.
+/// A query: the start and the goal of a path, and wishes beyond them: several ends, a tolerance, what to do
+/// where there is no way, limits.
+///
+/// Without wishes it costs nothing more than its [`Ends`]. They are a query, too, as are a pair and an array
+/// of two vertices.
 ///
 /// ```
-/// use mediant_search::{Limits, Query, Request};
+/// use mediant_search::{Limits, Query};
 ///
 /// let one = Query::new((0, 0), (9, 9)).nearest().within(Limits::new().cost(20.0));
-/// let several = Request::between([(0, 0), (3, 0)], [(9, 9), (9, 0)]).tolerance(2.0);
+/// let several = Query::between([(0, 0), (3, 0)], [(9, 9), (9, 0)]).tolerance(2.0);
 /// assert_eq!((one.starts().len(), several.goals().len()), (1, 2));
+/// assert_eq!(several.to_string(), "(0, 0) or (3, 0) → (9, 9) or (9, 0)");
+/// assert_eq!(Query::from([(0, 0), (9, 9)]).to_string(), "(0, 0) → (9, 9)");
 /// ```
-///
-/// A plain [`Query`] is a request, too, and costs nothing more than itself. So are a pair and an array of two
-/// vertices.
 #[derive(Clone, Debug)]
-pub struct Request {
-    query: Query,
+pub struct Query {
+    ends: Ends,
     wishes: Option<Box<Wishes>>,
 }
 
-/// The wishes of a request beyond its query.
+/// The wishes of a query beyond its ends, and its ends, since there may be several.
 #[derive(Clone, Debug)]
 pub(crate) struct Wishes {
     pub(crate) starts: Vec<Vertex>,
@@ -43,52 +51,64 @@ pub(crate) struct Wishes {
     pub(crate) limits: Limits,
 }
 
-impl From<Query> for Request {
+impl From<Ends> for Query {
     #[inline]
-    fn from(query: Query) -> Self {
-        Self { query, wishes: None }
+    fn from(ends: Ends) -> Self {
+        Self { ends, wishes: None }
     }
 }
 
-impl<S: Into<Vertex>, G: Into<Vertex>> From<(S, G)> for Request {
+impl<S: Into<Vertex>, G: Into<Vertex>> From<(S, G)> for Query {
     fn from(ends: (S, G)) -> Self {
-        Query::from(ends).into()
+        Ends::from(ends).into()
     }
 }
 
-impl<V: Into<Vertex>> From<[V; 2]> for Request {
+impl<V: Into<Vertex>> From<[V; 2]> for Query {
     fn from(ends: [V; 2]) -> Self {
-        Query::from(ends).into()
+        Ends::from(ends).into()
+    }
+}
+
+impl From<&Query> for Query {
+    fn from(query: &Query) -> Self {
+        query.clone()
+    }
+}
+
+impl Ends {
+    /// See [`Query::nearest`].
+    #[must_use]
+    pub fn nearest(self) -> Query {
+        Query::from(self).nearest()
+    }
+
+    /// See [`Query::tolerance`].
+    #[must_use]
+    pub fn tolerance(self, cells: f64) -> Query {
+        Query::from(self).tolerance(cells)
+    }
+
+    /// See [`Query::snap`].
+    #[must_use]
+    pub fn snap(self) -> Query {
+        Query::from(self).snap()
+    }
+
+    /// See [`Query::within`].
+    #[must_use]
+    pub fn within(self, limits: impl Into<Limits>) -> Query {
+        Query::from(self).within(limits)
     }
 }
 
 impl Query {
-    /// If there is no way: the path to the reachable vertex nearest to the goal. See [`Request::nearest`].
+    /// The query for a path from `start` to `goal`.
     #[must_use]
-    pub fn nearest(self) -> Request {
-        Request::from(self).nearest()
+    pub fn new(start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Self {
+        Ends::new(start, goal).into()
     }
 
-    /// A goal that is reached within a distance of it. See [`Request::tolerance`].
-    #[must_use]
-    pub fn tolerance(self, cells: f64) -> Request {
-        Request::from(self).tolerance(cells)
-    }
-
-    /// Moves blocked ends to the nearest free vertex. See [`Request::snap`].
-    #[must_use]
-    pub fn snap(self) -> Request {
-        Request::from(self).snap()
-    }
-
-    /// Sets limits. See [`Request::within`].
-    #[must_use]
-    pub fn within(self, limits: impl Into<Limits>) -> Request {
-        Request::from(self).within(limits)
-    }
-}
-
-impl Request {
     /// The shortest of the paths from any of the starts to any of the goals. Of paths of the same cost, the
     /// one whose goal comes first in the list, then the one whose start does.
     #[must_use]
@@ -99,15 +119,14 @@ impl Request {
         let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
         let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
         let first = |ends: &[Vertex]| ends.first().copied().unwrap_or(Vertex::new(0, 0));
-        let query = Query::new(first(&starts), first(&goals));
-        let mut request = Self::from(query);
-        let wishes = request.wishes_mut();
+        let mut query = Self::new(first(&starts), first(&goals));
+        let wishes = query.wishes_mut();
         (wishes.starts, wishes.goals) = (starts, goals);
-        request
+        query
     }
 
     /// Where there is no way, the path to the reachable vertex nearest to the goal
-    /// ([`Outcome::Nearest`](crate::Outcome::Nearest)): nearest by h_k, at k = ∞ by the straight line; of
+    /// ([`Answer::Nearest`](crate::Answer::Nearest)): nearest by h_k, at k = ∞ by the straight line; of
     /// several such vertices the one with the shortest path; then the one that comes first row by row. A
     /// blocked goal has no way to it.
     ///
@@ -138,7 +157,7 @@ impl Request {
         self
     }
 
-    /// Stops the search at these limits; see [`Outcome::Stopped`](crate::Outcome::Stopped).
+    /// Stops the search at these limits; see [`Answer::Stopped`](crate::Answer::Stopped).
     #[must_use]
     pub fn within(mut self, limits: impl Into<Limits>) -> Self {
         self.wishes_mut().limits = limits.into();
@@ -154,29 +173,29 @@ impl Request {
     /// The starts.
     #[must_use]
     pub fn starts(&self) -> &[Vertex] {
-        self.wishes.as_ref().map_or(std::slice::from_ref(&self.query.start), |wishes| &wishes.starts)
+        self.wishes.as_ref().map_or(std::slice::from_ref(&self.ends.start), |wishes| &wishes.starts)
     }
 
     /// The goals.
     #[must_use]
     pub fn goals(&self) -> &[Vertex] {
-        self.wishes.as_ref().map_or(std::slice::from_ref(&self.query.goal), |wishes| &wishes.goals)
+        self.wishes.as_ref().map_or(std::slice::from_ref(&self.ends.goal), |wishes| &wishes.goals)
     }
 
-    /// The query, if nothing more is asked.
+    /// Its two ends, if there are no wishes.
     #[must_use]
     #[inline]
-    pub const fn as_query(&self) -> Option<Query> {
-        if self.wishes.is_some() { None } else { Some(self.query) }
+    pub const fn as_ends(&self) -> Option<Ends> {
+        if self.wishes.is_some() { None } else { Some(self.ends) }
     }
 
     fn wishes_mut(&mut self) -> &mut Wishes {
-        let Query { start, goal } = self.query;
+        let Ends { start, goal } = self.ends;
         self.wishes.get_or_insert_with(|| Box::new(Wishes::between(start, goal)))
     }
 
     pub(crate) fn into_wishes(self) -> Wishes {
-        let Query { start, goal } = self.query;
+        let Ends { start, goal } = self.ends;
         self.wishes.map_or_else(|| Wishes::between(start, goal), |wishes| *wishes)
     }
 }
@@ -191,5 +210,13 @@ impl Wishes {
             snap: false,
             limits: Limits::new(),
         }
+    }
+}
+
+/// As `(0, 0) → (7, 0)`.
+impl fmt::Display for Query {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let any_of = |ends: &[Vertex]| ends.iter().map(Vertex::to_string).collect::<Vec<_>>().join(" or ");
+        f.pad(&format!("{} → {}", any_of(self.starts()), any_of(self.goals())))
     }
 }

@@ -1,6 +1,6 @@
 //! Snapped ends, and ends that are wrong.
 
-use mediant::{Query, Request, Vertex, errors::QueryError, grid::Grid, search::End};
+use mediant::{Ends, Query, Vertex, errors::QueryError, grid::Grid, search::End};
 use mediant_oracle::Rng;
 
 use super::{
@@ -27,18 +27,18 @@ fn ends_are_snapped_to_the_nearest_free_vertex() {
     on_worlds(maps(1), |world, rng| {
         for (setup, mut planner) in world.planners() {
             for _ in 0..4 {
-                let query = Query::new(anywhere(world, rng), anywhere(world, rng));
-                let text = || world.text(setup, &query);
-                let snapped = world.snapped(query.start).zip(world.snapped(query.goal));
+                let ends = Ends::new(anywhere(world, rng), anywhere(world, rng));
+                let text = || world.text(setup, &ends);
+                let snapped = world.snapped(ends.start).zip(world.snapped(ends.goal));
                 let Some((start, goal)) = snapped else {
-                    assert!(planner.find(query.snap()).is_err(), "{}", text());
+                    assert!(planner.find(ends.snap()).is_err(), "{}", text());
                     continue;
                 };
-                assert_eq!(planner.find(query.snap()), planner.find(Query::new(start, goal)), "{}", text());
+                assert_eq!(planner.find(ends.snap()), planner.find(Query::new(start, goal)), "{}", text());
                 let asked = asked_nearest(world, vec![start], vec![goal]);
                 if !asked.are_nearest {
-                    let request = query.snap().nearest();
-                    check(world, setup, &mut planner, &Asked { request, ..asked });
+                    let query = ends.snap().nearest();
+                    check(world, setup, &mut planner, &Asked { query, ..asked });
                 }
             }
         }
@@ -52,9 +52,9 @@ fn a_map_without_a_free_vertex_has_no_end_to_snap_to() {
         for (setup, mut planner) in world.planners() {
             for (start, goal) in [((0, 0), (1, 1)), ((i32::MIN, 0), (1, i32::MAX))] {
                 let at = Vertex::new(0, 0);
-                let request = Query::new(start, goal).snap().nearest().tolerance(2.0);
+                let query = Query::new(start, goal).snap().nearest().tolerance(2.0);
                 let error = Err(QueryError::NothingFree { end: End::Start, at });
-                assert_eq!(planner.find(request), error, "{setup}");
+                assert_eq!(planner.find(query), error, "{setup}");
             }
         }
     }
@@ -68,10 +68,10 @@ fn wrong_ends_are_named() {
         let last = Vertex::new(width - 1, height - 1);
         let beyond = Vertex::new(width, 0);
         for (setup, mut planner) in world.planners() {
-            let mut is_wrong = |request: Request, error: QueryError| {
-                assert_eq!(planner.find(request.clone()), Err(error), "{}", world.text(setup, &request));
-                assert_eq!(planner.begin(request.clone()), Err(error), "{}", world.text(setup, &request));
-                assert_eq!(planner.step(1), Err(QueryError::NotBegun), "{}", world.text(setup, &request));
+            let mut is_wrong = |query: Query, error: QueryError| {
+                assert_eq!(planner.find(query.clone()), Err(error), "{}", world.text(setup, &query));
+                assert_eq!(planner.begin(query.clone()), Err(error), "{}", world.text(setup, &query));
+                assert_eq!(planner.step(1), Err(QueryError::NotBegun), "{}", world.text(setup, &query));
             };
             let none: [Vertex; 0] = [];
             for (starts, goals, end) in [
@@ -79,18 +79,18 @@ fn wrong_ends_are_named() {
                 (&none, &[free], End::Start),
                 (&[free], &none, End::Goal),
             ] {
-                let request = Request::between(starts.iter().copied(), goals.iter().copied());
-                is_wrong(request.clone(), QueryError::NoEnd { end });
-                is_wrong(request.snap().nearest().tolerance(3.0), QueryError::NoEnd { end });
+                let query = Query::between(starts.iter().copied(), goals.iter().copied());
+                is_wrong(query.clone(), QueryError::NoEnd { end });
+                is_wrong(query.snap().nearest().tolerance(3.0), QueryError::NoEnd { end });
             }
             for (at, is_outside) in [(wall, false), (beyond, true)] {
                 let error = |end: End| match is_outside {
                     true => QueryError::Outside { end, at, last },
                     false => QueryError::Blocked { end, at },
                 };
-                is_wrong(Request::between([free, at], [free]), error(End::Start));
-                is_wrong(Request::between([free, at], [free, at]).nearest(), error(End::Start));
-                is_wrong(Request::between([free], [free, at]), error(End::Goal));
+                is_wrong(Query::between([free, at], [free]), error(End::Start));
+                is_wrong(Query::between([free, at], [free, at]).nearest(), error(End::Start));
+                is_wrong(Query::between([free], [free, at]), error(End::Goal));
                 is_wrong(Query::new(at, free).nearest().tolerance(1e9), error(End::Start));
                 is_wrong(Query::new(free, at).tolerance(0.0), error(End::Goal));
             }

@@ -1,6 +1,6 @@
 //! Ends in pockets, and in rooms behind single doors: an index may leave these out where a query needs none.
 
-use mediant::{Engine, K, Limits, Map, Motion, Outcome, PlacementKind, Query, Request, Setup, Vertex};
+use mediant::{Answer, Ends, Engine, K, Limits, Map, Motion, PlacementKind, Query, Setup, Vertex};
 use mediant_oracle::on_all_cores;
 
 use super::{
@@ -51,8 +51,8 @@ fn pockets_and_rooms_are_open_where_they_are_needed() {
                 for &goal in &places {
                     let goals = vec![goal, places[(number + 5) % places.len()]];
                     let starts = vec![start, other];
-                    let request = Request::between(starts.clone(), goals.clone());
-                    let asked = Asked { request, starts, goals, are_nearest: false };
+                    let query = Query::between(starts.clone(), goals.clone());
+                    let asked = Asked { query, starts, goals, are_nearest: false };
                     check(&world, setup, &mut planner, &asked);
                     let asked = asked_nearest(&world, vec![start], vec![goal]);
                     assert_eq!(asked.are_nearest, (start == VAULT) != (goal == VAULT));
@@ -76,7 +76,7 @@ fn a_tolerance_reaches_through_walls() {
         assert!(near.contains(&start) && near.iter().any(|at| at.y > 7), "{near:?}");
         for (setup, mut planner) in world.planners() {
             let found = planner.find(Query::new(start, goal).tolerance(3.0));
-            assert_eq!(found.map(|outcome| outcome.cost()), Ok(Some(0.0)), "{setup}");
+            assert_eq!(found.map(|answer| answer.cost()), Ok(Some(0.0)), "{setup}");
             let far = Vertex::new(0, 0);
             let found = planner.find(Query::new(far, goal).tolerance(3.0)).expect("both ends are free");
             let best = near.iter().filter_map(|&at| world.optimum(far, at)).fold(f64::INFINITY, f64::min);
@@ -96,14 +96,14 @@ fn a_stopped_search_names_what_it_reached() {
         let world = world(motion);
         for setup in Setup::all(motion) {
             let mut planner = setup.prepare(&world.space).expect("an index").planner();
-            let query = Query::new((4, 10), (3, 2));
-            let whole = planner.find(query).expect("both ends are free").into_path().expect("a way");
+            let ends = Ends::new((4, 10), (3, 2));
+            let whole = planner.find(ends).expect("both ends are free").into_path().expect("a way");
             for most in 0..40 {
-                let request = query.within(Limits::new().cost(f64::from(most) / 2.0));
-                match planner.find(request).expect("both ends are free") {
-                    Outcome::Stopped(stopped) => {
+                let query = ends.within(Limits::new().cost(f64::from(most) / 2.0));
+                match planner.find(query).expect("both ends are free") {
+                    Answer::Stopped(stopped) => {
                         let at = end(&stopped.best);
-                        world.check_path(setup, &stopped.best, (query.start, at), &query);
+                        world.check_path(setup, &stopped.best, (ends.start, at), &ends);
                         assert!(stopped.best.cost() <= f64::from(most) / 2.0 + 1e-9, "{setup}");
                     }
                     found => assert_eq!(found.path(), Some(&whole), "{setup}"),

@@ -1,4 +1,4 @@
-//! The observer of a search for a request, which enforces its limits.
+//! The observer of a search for a query, which enforces its limits.
 
 use mediant_grid::Vertex;
 use mediant_moves::Cost;
@@ -21,7 +21,7 @@ pub(super) enum Pause {
     Beaten,
 }
 
-/// The progress of a request through the searches of its pairs.
+/// The progress of a query through the searches of its pairs.
 #[derive(Debug)]
 pub(super) struct Progress {
     pub(super) limits: Limits,
@@ -34,7 +34,7 @@ pub(super) struct Progress {
     pub(super) step_end: u64,
     /// Whether the observer may pause the search, too.
     pub(super) is_step: bool,
-    /// The greatest cost that the request allows.
+    /// The greatest cost that the query allows.
     pub(super) greatest: Cost,
     /// The cost of the best path that is known.
     pub(super) known: Cost,
