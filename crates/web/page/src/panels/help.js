@@ -84,7 +84,7 @@ export function startHelp() {
 }
 
 /**
- * What stands at the left of each entry, and what it means.
+ * A list of terms and their meanings. `draw` gives the left side of an entry.
  * @param {string} kind
  * @param {string[][]} entries
  * @param {(term: string) => (Node | string)[]} draw

@@ -1,4 +1,4 @@
-// What lies over the map, with its legend; and the agents.
+// The choice of the overlay, with its legend; and the agents.
 
 import { MOST_AGENTS } from "../model/setups.js";
 import { changes, eachFrame, field, h, part, select, setText } from "./dom.js";
