@@ -83,7 +83,7 @@ def main() -> None:
     parser.add_argument("--cluster", action="store_true", help="test Dask and Ray, too")
     parser.add_argument("--keep", action="store_true", help="take the environment of the last run")
     wishes = parser.parse_args()
-    # What runs in the background of a shell ignores Ctrl-C, and so would the programs that test it.
+    # Programs in the background of a shell ignore Ctrl-C, and so would those that test it.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     extras = "test,plot,batch,dask" + (",ray" if wishes.cluster else "")
     python = prepare(wheel_of(wishes.wheel), extras, wishes.keep)
@@ -98,7 +98,7 @@ def main() -> None:
         )
         stubtest = ["mypy.stubtest", "mediant", "--mypy-config-file", "pyproject.toml"]
         run("The stub", [*module, *stubtest, "--allowlist", str(ALLOWED)])
-    # What takes times has the cores to itself.
+    # Tests that take times have the cores to themselves.
     timed = "tests/test_interrupts.py"
     tests = [*module, "pytest", "-rs"]
     run("Tests and examples of docstrings", [*tests, "-n", "auto", "tests", "--ignore", timed])

@@ -11,7 +11,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs, promisify } from "node:util";
 import { brotliCompress, constants, gzip } from "node:zlib";
 
-/** Where `cargo xtask web` writes the page. */
+/** The folder into which `cargo xtask web` writes the page. */
 export const PAGE = fileURLToPath(new URL("../../target/web/page", import.meta.url));
 
 /** @type {Record<string, string>} */
@@ -44,7 +44,7 @@ async function find(folder, address) {
     return 400;
   }
   const path = join(folder, normalize(`/${name}`));
-  // What lies outside of the folder is not there, whatever the address says.
+  // No address leads outside of the folder.
   if (name.includes("\0") || (path !== folder && !path.startsWith(folder + sep))) {
     return 404;
   }
@@ -64,7 +64,7 @@ async function find(folder, address) {
   }
 }
 
-/** What is worth compressing: texts that are not small. */
+/** Whether a file is worth compressing: a text that is not small. */
 const isText = (/** @type {string} */ type, /** @type {number} */ size) =>
   size > 1000 && /^text\/|json$|\+xml$/.test(type);
 

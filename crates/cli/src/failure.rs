@@ -1,4 +1,4 @@
-//! How the program ends: its exit status, and what it says if it failed.
+//! The end of the program: its exit status, and its message if it failed.
 
 use std::{io, path::PathBuf, process::ExitCode};
 
@@ -15,7 +15,7 @@ pub(crate) const FAILURE: u8 = 2;
 /// Exit status 3: with `--require-path`, some query has no path.
 const NO_PATH: u8 = 3;
 
-/// How a command ended that could do what it was asked to.
+/// The end of a command that could do what it was asked to.
 #[derive(Debug)]
 pub(crate) enum Ending {
     /// Every query was answered, if only by 'there is no path'.

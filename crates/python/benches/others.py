@@ -1,6 +1,6 @@
 """The other libraries, each behind one face: a map made ready beforehand, a path per call, its length.
 
-What a library wants of a map is made in the constructor and not timed, unless the library takes an array at
+A library's own form of a map is made in the constructor and not timed, unless the library takes an array at
 each call. `rule` says under which rules of Mediant the same paths are sought.
 """
 

@@ -1,4 +1,4 @@
-"""What a call from Python costs: paths one by one on a prepared map, and a million in one call.
+"""The cost of a call from Python: paths one by one on a prepared map, and a million in one call.
 
     python overhead.py --data FOLDER [--map SET/MAP] [--queries 1000000]
 

@@ -13,11 +13,11 @@ use std::{
 use mediant::{Index, Limits, options::Levels};
 use pyo3::prelude::*;
 
-/// How often signals are looked at.
+/// The interval between two looks at the signals.
 pub(crate) const LOOK: Duration = Duration::from_millis(20);
 
-/// How long an interruption waits for the work to end. Most work ends within some milliseconds; this is for
-/// work that cannot be stopped, such as a write to a disk.
+/// The time that an interruption waits for the work to end. Most work ends within some milliseconds; this is
+/// for work that cannot be stopped, such as a write to a disk.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// Up to this many cells, whatever is not a preparation takes a few milliseconds.

@@ -35,7 +35,7 @@ const INVALID: u8 = Status::ALL.len() as u8;
 /// The most distances in a table: of 16 GiB.
 const MOST_IN_TABLE: usize = 1 << 31;
 
-/// How a batch runs.
+/// The keywords of a batch.
 pub(crate) struct Batch<'py> {
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
@@ -46,9 +46,9 @@ pub(crate) struct Batch<'py> {
 #[derive(Clone, Copy)]
 struct Numbered {
     count: usize,
-    /// How many a thread gets at once.
+    /// The number of questions that a thread gets at once.
     chunk: usize,
-    /// How many queries each stands for, to those who look at the progress.
+    /// The number of queries for which each question counts in the progress.
     queries: usize,
 }
 

@@ -97,7 +97,7 @@ impl Keywords {
         })
     }
 
-    /// How the agent moves.
+    /// The motion that the keywords give.
     pub(crate) fn motion(&self) -> PyResult<Motion> {
         self.call.motion().map_err(call_error)
     }
@@ -226,7 +226,7 @@ pub(crate) fn moves<'py>(k: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<
     points_array(k.py(), &flat)
 }
 
-/// How much longer than the shortest path at any angle a shortest path over N(k) can be.
+/// An upper bound on the length of a shortest path over N(k), as a multiple of the shortest at any angle.
 ///
 /// Parameters
 /// ----------

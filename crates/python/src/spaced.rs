@@ -19,7 +19,7 @@ const MOST_POINTS: f64 = (1_u64 << 30) as f64;
 /// path : array_like of int
 ///     Waypoints, shape (n, 2): a path that was found, or any other.
 /// spacing : float
-///     How far apart they are, in cells as measured along the path. For meters divide them by
+///     Their distance from each other, in cells as measured along the path. For meters divide them by
 ///     `World.resolution`.
 ///
 /// Returns

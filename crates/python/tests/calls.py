@@ -109,7 +109,7 @@ TAKERS.update(
 
 
 class Things:
-    """What is called, and good values of its parameters."""
+    """The objects that are called, and good values of their parameters."""
 
     ROWS = (".........", "..#......", "..#..#...", "..#..##..", ".....#...", ".........")
     SCENARIO = b"version 1\n0 room.map 9 6 0 0 8 5 10.5\n"

@@ -1,4 +1,4 @@
-"""What all tests share: seeds that are printed when a test fails."""
+"""Fixtures of all tests: seeds that are printed when a test fails."""
 
 import os
 

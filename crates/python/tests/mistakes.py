@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 
 class EvilError(Exception):
-    """What evil objects raise."""
+    """The error that evil objects raise."""
 
 
 NUMBERS = st.one_of(

@@ -43,7 +43,7 @@ def moves(k):
 
 
 def _spans(length, low, high):
-    """When a point going from 0 to `length` in unit time is strictly between low and high; None if never."""
+    """The times when a point going from 0 to `length` in unit time is inside (low, high); None if never."""
     if length == 0:
         return (Fraction(0), Fraction(1)) if low < 0 < high else None
     first, last = sorted((Fraction(low) / length, Fraction(high) / length))
@@ -52,7 +52,7 @@ def _spans(length, low, high):
 
 @functools.cache
 def footprint(placement, dr, dc):
-    """What a segment from (0, 0) to (dr, dc) needs.
+    """The cells and vertices that decide whether a segment from (0, 0) to (dr, dc) is legal.
 
     Returns the cells whose interior it enters, the pairs of cells beside the corners that it passes through
     (at centers) or beside the edges that it runs along (at corners), and the vertices that it passes through.
@@ -169,7 +169,7 @@ class Slow:
         return result
 
     def is_path(self, path, k="any"):
-        """Why an array is no path over N(k), if it is none."""
+        """The reason why an array is no path over N(k); None if it is one."""
         path = [tuple(map(int, at)) for at in path]
         for a, b in zip(path, path[1:]):
             d = (b[0] - a[0], b[1] - a[1])

@@ -25,7 +25,7 @@ def pyastar2d():
 
 
 def outcome(call, *arguments, **options):
-    """What a call does: ("returned", its result), or ("raised", its kind, its text)."""
+    """The outcome of a call: ("returned", its result), or ("raised", its kind, its text)."""
     try:
         return ("returned", call(*arguments, **options))
     except Exception as error:

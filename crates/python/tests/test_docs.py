@@ -127,7 +127,7 @@ def test_public_items_are_documented(name):
 
 @pytest.mark.parametrize("call", [c for c in calls.all_calls() if not c.name.startswith("_")], ids=str)
 def test_validator(call):
-    """What numpydoc finds, but for sections that we leave out on purpose."""
+    """Numpydoc finds no mistake, but for sections that we leave out on purpose."""
     validate = pytest.importorskip("numpydoc.validate")
     ignored = {
         "EX01",

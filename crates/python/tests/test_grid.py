@@ -207,7 +207,7 @@ def test_occupancy(rng, dtype):
 
 
 def test_occupancy_is_the_file_that_was_saved(tmp_path):
-    """What a server would save of a message, and the message: the same cells in the same places."""
+    """A message, and the file that a server would save of it, have the same cells in the same places."""
     cells = np.array([[0, 100, 0, 0], [-1, 0, 0, 100], [0, 0, 0, 0]])
     gray = {0: 254, 100: 0, -1: 205}
     pixels = " ".join(str(gray[int(cell)]) for cell in cells[::-1].ravel())

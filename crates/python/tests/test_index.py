@@ -204,7 +204,7 @@ def test_shared_by_threads(rng):
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits memory as Linux does")
 def test_short_memory():
-    """What does not fit in memory is an error, and the process goes on."""
+    """A call that needs more memory than there is raises an error, and the process goes on."""
     program = """
 import mediant, numpy, resource
 grid = mediant.Grid(numpy.zeros((4000, 4000), bool))

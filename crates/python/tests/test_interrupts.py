@@ -36,7 +36,7 @@ start, goal = (0, side - 1), (side - 1, side - 1)
 ends = [start, goal]
 """
 
-# What is prepared before the call, which is interrupted. The first search of a planner makes its scratch
+# The preparation, and the call that is interrupted after it. The first search of a planner makes its scratch
 # memory, which cannot be interrupted: `first` may take longer.
 CALLS = {
     "first": ("index = grid.prepare('astar', k=5)", "index.path(start, goal)"),
@@ -124,7 +124,7 @@ def test_interrupt(name, record_property):
     assert seconds < MOST_SECONDS * (4 if name == "first" else 1)
 
 
-# What is prepared before calls that are repeated until one is interrupted. Nothing of it may go on.
+# The preparation, and the call that is repeated until it is interrupted. Nothing of it may go on.
 ENDED = {
     "jps-block": ("", "grid.prepare('jps-block')"),
     "jps-plus": ("", "grid.prepare('jps-plus')"),
@@ -208,7 +208,7 @@ def test_nothing_goes_on(name):
     seconds, grown = json.loads(run.stdout)
     print(f"{name}: {1000 * seconds:.1f} ms of the next 100 ms, {grown >> 20} MiB")
     assert seconds < 0.02
-    # What allocators and thread pools keep for themselves.
+    # Allocators and thread pools keep some for themselves.
     assert grown < 48 << 20
 
 

@@ -33,7 +33,7 @@ SYNONYMS = {
 
 @pytest.fixture(scope="module")
 def things(tmp_path_factory):
-    """What is called. Files of any name are written where nothing is lost."""
+    """The objects that are called. Files of any name are written where nothing is lost."""
     before = os.getcwd()
     os.chdir(tmp_path_factory.mktemp("cwd"))
     yield calls.Things(tmp_path_factory.mktemp("files"))

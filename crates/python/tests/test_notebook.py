@@ -47,7 +47,7 @@ def test_it_runs_from_a_fresh_kernel(path):
             cell.outputs, cell.execution_count = [], None
     nbclient.NotebookClient(notebook, timeout=60, kernel_name="python3").execute()
     assert len(pictures(notebook)) == len(pictures(committed))
-    # What it prints has no times, and is the same on each machine.
+    # Its printed texts have no times, and are the same on each machine.
     for now, before in zip(notebook.cells, committed.cells):
         printed, expected = (
             [output.text for output in cell.get("outputs", []) if output.get("name") == "stdout"]

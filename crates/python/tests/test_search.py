@@ -145,7 +145,7 @@ def test_a_search_is_of_one_thread_at_a_time():
 
 @pytest.mark.skipif(not hasattr(signal, "SIGALRM"), reason="needs a signal that a timer sends")
 def test_a_search_goes_on_after_a_signal():
-    """What a signal's handler raises comes out of a step, and no expansion is lost or made twice."""
+    """The error of a signal's handler comes out of a step, and no expansion is lost or made twice."""
 
     class AlarmError(Exception):
         pass

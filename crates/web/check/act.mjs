@@ -1,4 +1,4 @@
-// What tests do on the page and read from it. `mediant` in the page is what main.js leaves there for them.
+// The actions of tests on the page, and their readings, by the object `mediant` that main.js leaves there.
 
 import { settled } from "./browser.mjs";
 
@@ -89,7 +89,7 @@ export async function setLanes(page, ...setups) {
   }, setups);
 }
 
-/** Where the center of a cell is in the window, or another place of the map.
+/** The pixels in the window of a cell's center, or of another place of the map.
  *  @param {Page} page @param {number} x @param {number} y @param {number} [lane] */
 export const place = (page, x, y, lane = 0) =>
   page.evaluate(
@@ -102,7 +102,7 @@ export const place = (page, x, y, lane = 0) =>
 export const colorsAt = (page, places, lane = 0) =>
   page.evaluate(
     async ([places, lane]) => {
-      // What has changed is drawn in the next frame.
+      // A change is drawn in the next frame.
       for (let frame = 0; frame < 2; frame += 1) await new Promise(requestAnimationFrame);
       const pane = /** @type {any} */ (globalThis).mediant.stage.panes[lane];
       const { left, top, scale, width, height } = pane.frame;
@@ -142,7 +142,7 @@ export async function drag(page, cells, steps = 6, button = "left") {
   await page.mouse.up({ button });
 }
 
-/** Where an end's badge is: at its cell's center, or at a corner of cells.
+/** The place of an end's badge: its cell's center, or a corner of cells.
  *  @param {Page} page @param {"start" | "goal"} end @returns {Promise<Point>} as `place` takes it */
 export const badge = (page, end) =>
   page.evaluate((end) => {

@@ -22,7 +22,7 @@ const FLAGS = [
   "--disable-sync",
 ];
 
-/** How a window is opened. @typedef {import("playwright-core").BrowserContextOptions} Look */
+/** The options of a window. @typedef {import("playwright-core").BrowserContextOptions} Look */
 
 /** Starts Chromium. */
 export const launch = () => chromium.launch({ executablePath: program(), args: FLAGS });
@@ -96,7 +96,7 @@ export class Site {
     });
     page.on("requestfailed", (request) => {
       const reason = request.failure()?.errorText ?? "";
-      // What a closing window no longer waits for.
+      // A window that closes aborts its open requests.
       if (reason !== "net::ERR_ABORTED") note(`request failed: ${request.url()} ${reason}`);
     });
     page.on("response", (response) => {

@@ -4,7 +4,7 @@
 //   --gallery           also draws the pictures of docs/web.md anew
 //   --all               counts what cannot be run on this machine as a failure
 //
-// What the tests need is installed into node_modules beside this file. What cannot be had is said at the end.
+// Dependencies are installed into node_modules beside this file. Tests that lack some are named at the end.
 
 import { execFileSync, spawnSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync } from "node:fs";

@@ -1,6 +1,6 @@
 // A picture in few colors: the most frequent ones as they are, the others by median cut (Heckbert 1982).
 
-/** How many pixels have each color, by red · 65536 + green · 256 + blue. @param {Uint8Array} data */
+/** The number of pixels of each color, by red · 65536 + green · 256 + blue. @param {Uint8Array} data */
 function counted(data) {
   /** @type {Map<number, number>} */
   const counts = new Map();

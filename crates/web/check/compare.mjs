@@ -58,7 +58,7 @@ function need(path, how) {
   return process.exit(2);
 }
 
-/** How the program runs this setup on an even sample of the map's scenario. @param {string} file */
+/** The program's answers with this setup to an even sample of the map's scenario. @param {string} file */
 function native(file, /** @type {string} */ engine, /** @type {number | "any"} */ k) {
   const instances = readFileSync(`${file}.scen`, "utf8").trim().split("\n").length - 1;
   const every = Math.max(1, Math.floor(instances / Number(values.queries)));
@@ -91,7 +91,7 @@ function native(file, /** @type {string} */ engine, /** @type {number | "any"} *
  */
 function wasm(index, queries) {
   const planner = index.planner();
-  // V8 optimizes what has run often. A page that answers queries has come there after a moment.
+  // V8 optimizes code that has run often. A page that answers queries has come there after a moment.
   const from = performance.now();
   do {
     for (const { start, goal } of queries) planner.find(start, goal);

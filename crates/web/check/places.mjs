@@ -1,4 +1,4 @@
-// Where things are: folders of the project, and the browser.
+// The paths of the project's folders, and of the browser.
 
 import { accessSync, constants } from "node:fs";
 import { delimiter, join } from "node:path";

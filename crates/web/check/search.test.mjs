@@ -1,4 +1,4 @@
-// What the page decides before it asks an engine, and after: when a query is sent, what a worker is told of
+// The page's decisions before it asks an engine, and after: when a query is sent, what a worker is told of
 // the map, how an agent walks. Pure functions, against slow and obvious ones.
 // `SEED=… node --test` repeats a run.
 

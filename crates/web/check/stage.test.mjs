@@ -1,5 +1,5 @@
-// What the stage computes: the part of a search that is shown, the part of the map that is seen, which cells
-// a rectangle and a fill take. Against slow and obvious functions. `SEED=… node --test` repeats a run.
+// Computations of the stage: the part of a search that is shown, the part of the map that is seen, the cells
+// of a rectangle and of a fill. Against slow and obvious functions. `SEED=… node --test` repeats a run.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -21,7 +21,7 @@ function recorded(random) {
   return Uint32Array.from([0, ...steps]);
 }
 
-/** How many steps belong to the first `n` expansions. @param {Uint32Array} steps @param {number} n */
+/** The number of steps of the first `n` expansions. @param {Uint32Array} steps @param {number} n */
 function slowEnd(steps, n) {
   let seen = 0;
   for (let i = 0; i < steps.length; i++) {

@@ -1,4 +1,4 @@
-// What travels between a browser and a server: a relay between the two that counts.
+// A relay between a browser and a server that counts the requests and the bytes.
 
 import { connect, createServer } from "node:net";
 

@@ -1,4 +1,4 @@
-// What the modules of the page say to each other. The modules are JavaScript with types in comments, which
+// The interfaces between the modules of the page. The modules are JavaScript with types in comments, which
 // the tests check against this file.
 
 import type { EngineInfo, Motion } from "./mediant/mediant.js";
@@ -24,17 +24,17 @@ export interface LaneSetup {
   smooth: "" | "linear" | "taut";
 }
 
-/** What lies over the map: the search as it spread, or one of the other pictures. */
+/** The picture over the map: the search as it spread, or one of the others. */
 export type Overlay = "search" | "clearance" | "distances" | "flow" | "rules" | "none";
 
-/** Where a map came from. A map that was edited says so beside it. */
+/** The origin of a map. A map that was edited says so beside it. */
 export type MapSource =
   | { kind: "bundled"; name: string }
   | { kind: "generated"; name: string; side: number; seed: number }
   | { kind: "file"; name: string }
   | { kind: "empty"; width: number; height: number };
 
-/** What a change of the model touched. */
+/** The parts of the scene that a change of the model touched. */
 export interface Change {
   /** Another map: size, cells, ends. */
   map?: boolean;
@@ -127,7 +127,7 @@ export interface LaneAnswer {
   verticesPerRow: number;
   /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
   reference: { length: number; path: Int32Array; what: "any" | "k" } | null;
-  /** Why the query is invalid, as a sentence, with its code. */
+  /** The error of an invalid query, as a sentence, with its code. */
   error: { code: string; message: string } | null;
 }
 
@@ -136,7 +136,7 @@ export interface LaneState {
   progress: { stage: string; done: number; total: number } | null;
   /** Of a search under way: expansions so far. */
   expanded: number;
-  /** Why it failed, as a sentence. */
+  /** The reason of a failure or a cancellation, as a sentence. */
   message: string;
   answer: LaneAnswer | null;
   /** Whether the scene has changed since the answer. */
@@ -164,10 +164,10 @@ export interface Lanes extends EventTarget {
   readonly engines: readonly EngineInfo[];
   /** The moves of N(k), x, y, … in angular order. */
   moves(k: number): Promise<Int32Array>;
-  /** Why these do not go together, as a sentence; empty if they do. */
+  /** The conflict between engine and motion, as a sentence; empty if there is none. */
   check(setup: LaneSetup): Promise<string>;
-  /** How far from the shortest at any angle paths over N(k) can be with this motion, as a ratio; null where
-   *  no bound is known. One for each k. */
+  /** The bounds of paths over N(k) with this motion, as ratios to the shortest at any angle; null where none
+   *  is known. One for each k. */
   bounds(setup: LaneSetup, ks: number[]): Promise<(number | null)[]>;
   /** Stops a search or a preparation. */
   cancel(index: number): void;
@@ -177,7 +177,7 @@ export interface Lanes extends EventTarget {
   /** The lane's search for the Posthoc visualizer. */
   trace(index: number): Promise<Blob>;
   picture(index: number, format: "png" | "svg"): Promise<Blob>;
-  /** What the overlay shows, for the active lane: one number for each vertex (or cell, for clearance). */
+  /** The values of the overlay, for the active lane: one for each vertex (or cell, for clearance). */
   readonly field: {
     kind: "clearance" | "distances" | "flow";
     width: number;
@@ -188,7 +188,7 @@ export interface Lanes extends EventTarget {
     flow: Float32Array | null;
     greatest: number;
   } | null;
-  /** Where no agent of the model's radius fits: 1 = too narrow, walls included; null for a point. */
+  /** The cells where the agent does not fit: 1 = too narrow, walls included; null for a point. */
   readonly tooNarrow: Uint8Array | null;
 }
 
@@ -209,7 +209,7 @@ export interface Player extends EventTarget {
   /** One expansion on, or back. */
   step(by: number): void;
   seek(position: number): void;
-  /** How many of the lane's steps are shown. */
+  /** The number of the lane's steps that are shown. */
   shown(lane: number): number;
   /** Whether the lane has arrived, so that its path is shown. */
   arrived(lane: number): boolean;
@@ -221,7 +221,7 @@ export type Tool = "move" | "draw" | "erase" | "fill" | "rectangle";
  *  another tool is taken, and `say` with a sentence as `detail` about the keyboard's cell. */
 export interface Stage extends EventTarget {
   tool: Tool;
-  /** Where a point of the map, in cells, is in the window, in CSS pixels. */
+  /** The CSS pixels in the window of a point of the map, which is in cells. */
   place(lane: number, x: number, y: number): { x: number; y: number };
   fit(): void;
   zoom(factor: number): void;
@@ -234,7 +234,7 @@ export interface Stage extends EventTarget {
 export interface Walker {
   x: number;
   y: number;
-  /** What is left of its path, in vertices. */
+  /** The rest of its path, in vertices. */
   path: Int32Array;
   state: "walking" | "arrived" | "stuck";
   /** Whether it has just planned anew. */

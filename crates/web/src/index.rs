@@ -69,7 +69,7 @@ impl Index {
         self.inner.setup().optimal_over().is_some()
     }
 
-    /// How much longer than the shortest path at any angle its paths can be, as a factor: 1.08 is 8 %.
+    /// An upper bound on its paths' lengths, as a multiple of the shortest at any angle: 1.08 is 8 % longer.
     /// Undefined where nothing is proven.
     #[wasm_bindgen(getter)]
     pub fn bound(&self) -> Option<f64> {
@@ -83,7 +83,7 @@ impl Index {
         self.inner.memory_bytes() as f64
     }
 
-    /// How it came about.
+    /// The way in which it came about.
     #[wasm_bindgen(
         getter,
         unchecked_return_type = "\"prepared\" | \"loaded\" | \"repaired\" | \"unchanged\""

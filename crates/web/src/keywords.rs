@@ -55,7 +55,7 @@ impl Keywords {
         Ok(self)
     }
 
-    /// How the agent moves.
+    /// The motion that the keywords give.
     pub(crate) fn motion(&self) -> Result<Motion, JsValue> {
         self.call.motion().map_err(call_error)
     }

@@ -33,8 +33,8 @@ pub fn moves(#[wasm_bindgen(unchecked_param_type = "number")] k: &JsValue) -> Re
     Ok(Int32Array::from(&flat[..]))
 }
 
-/// How much longer than the shortest path at any angle a shortest path over N(k) can be, as a factor: 1.0824
-/// is 8.24 %. Undefined where none is proven.
+/// An upper bound on the length of a shortest path over N(k), as a multiple of the shortest at any angle:
+/// 1.0824 is 8.24 % longer. Undefined where none is proven.
 ///
 /// @throws MediantError `k` for a k below 2.
 #[wasm_bindgen]

@@ -191,25 +191,25 @@ impl Trace {
         Ok(Self { events: Rc::new(RefCell::new(events)) })
     }
 
-    /// How many vertices were expanded. The goal, at which a search stops, is not.
+    /// The number of expanded vertices, without the goal, at which a search stops.
     #[wasm_bindgen(getter)]
     pub fn expanded(&self) -> Result<f64, JsValue> {
         self.read(|events| events.expanded as f64)
     }
 
-    /// How many vertices were reached for the first time.
+    /// The number of vertices that were reached for the first time.
     #[wasm_bindgen(getter)]
     pub fn generated(&self) -> Result<f64, JsValue> {
         self.read(|events| events.generated as f64)
     }
 
-    /// How often a shorter path to a vertex was found.
+    /// The number of times that a shorter path to a vertex was found.
     #[wasm_bindgen(getter)]
     pub fn updated(&self) -> Result<f64, JsValue> {
         self.read(|events| events.updated as f64)
     }
 
-    /// How many vertices jump point searches looked at in their jumps.
+    /// The number of vertices that jump point searches looked at in their jumps.
     #[wasm_bindgen(getter)]
     pub fn scanned(&self) -> Result<f64, JsValue> {
         self.read(|events| events.scanned as f64)

@@ -131,13 +131,13 @@ export type Stage = "edges" | "hierarchy" | "sight" | "labels";
 export type Origin = "prepared" | "loaded" | "repaired" | "unchanged";
 // described: end
 
-/** How an agent moves, with all that it has: `corners` at centers, `gap` at corners. */
+/** The motion of an agent with all its parts: `corners` at centers, `gap` at corners. */
 export interface WholeMotion extends Motion {
   readonly k: number | "any";
   readonly placement: "center" | "corner";
 }
 
-/** Which characters of a map are free cells, and which are blocked. */
+/** The characters of a map's free and blocked cells. */
 export interface TileOptions {
   /** The characters of free cells, `".GS"` by default. Without `blocked` all others are blocked. */
   readonly free?: string;
@@ -145,16 +145,16 @@ export interface TileOptions {
   readonly blocked?: string;
 }
 
-/** How a file becomes a map. The characters are those of a MovingAI map. */
+/** The options of reading a map from a file. The characters are those of a MovingAI map. */
 export interface MapOptions extends TileOptions {
   /** A pixel that is darker than this part of white is blocked, 0 to 1. One half by default. */
   readonly threshold?: number;
   /** Light pixels are blocked. */
   readonly invert?: boolean;
-  /** What becomes of transparent pixels, and of the unknown cells of a ROS map. Blocked by default. */
+  /** The state of transparent pixels, and of the unknown cells of a ROS map. Blocked by default. */
   readonly unknown?: "blocked" | "free";
   /**
-   * Whose `map_server` says how the picture of a ROS map is read: that of ROS 2 (nav2 since 2025) or that of
+   * The version of ROS by whose `map_server` the picture of a ROS map is read: ROS 2 (nav2 since 2025) or
    * ROS 1. ROS 2 by default.
    */
   readonly ros?: 1 | 2;
@@ -206,7 +206,7 @@ export interface Answer {
   readonly best?: Int32Array;
 }
 
-/** What `Space.widestPath` finds. */
+/** The result of `Space.widestPath`. */
 export interface WidestPath {
   /** The waypoints x, y, …. */
   readonly path: Int32Array;
@@ -216,7 +216,7 @@ export interface WidestPath {
   readonly radius: number;
 }
 
-/** What `Planner.nearest` finds. */
+/** The result of `Planner.nearest`. */
 export interface NearestGoal {
   /** The number of the goal. */
   readonly goal: number;
@@ -224,19 +224,19 @@ export interface NearestGoal {
   readonly distance: number;
 }
 
-/** What an engine can do. */
+/** The name, limits and guarantee of an engine. */
 export interface EngineInfo {
   readonly name: string;
   /** Its name in print: `"Block-based JPS"`. */
   readonly title: string;
-  /** How it works, in a sentence. */
+  /** Its method, in a sentence. */
   readonly how: string;
   readonly placements: ("center" | "corner")[];
   /** The largest finite k; the smallest is 2. */
   readonly maxK: number;
   /** Whether it takes k "any". */
   readonly any: boolean;
-  /** What is guaranteed of its paths: `"optimal(k)"`, `"suboptimal"`, …. */
+  /** The guarantee of its paths: `"optimal(k)"`, `"suboptimal"`, …. */
   readonly guarantee: string;
   /** Its paper: first author and year. */
   readonly paper: string;
@@ -246,7 +246,7 @@ export interface EngineInfo {
   readonly options: string[];
 }
 
-/** What is thrown, but for arguments of a wrong type, which are a `TypeError`. */
+/** The error that is thrown, except for arguments of a wrong type: they are a `TypeError`. */
 export interface MediantError extends Error {
   readonly name: "MediantError";
   /** Stable from version to version: `"start-blocked"`, `"map-format"`, …. */

@@ -51,7 +51,7 @@ struct SummaryLine<'a> {
     broken: u64,
 }
 
-/// How a path is to be checked.
+/// The rules by which a path is checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rules {
     /// The motion, which also says which map an agent has.

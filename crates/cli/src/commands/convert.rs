@@ -86,7 +86,7 @@ fn write(args: &ConvertArgs, form: Form, map: &NamedMap, image: &Path) -> Result
     }
 }
 
-/// How many cells are blocked, in words.
+/// The number and the share of blocked cells, in words.
 fn blocked(grid: &Grid) -> String {
     let cells = u64::from(grid.width()) * u64::from(grid.height());
     let blocked = cells - grid.free_cells();

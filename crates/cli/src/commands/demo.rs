@@ -26,7 +26,7 @@ use crate::{
 
 /// The finite k of the table's rows at corners.
 const KS: [u32; 8] = [2, 3, 4, 5, 6, 7, 9, 12];
-/// How often each query is timed; the best time counts.
+/// The number of times that each query is timed; the best time counts.
 const REPEAT: u32 = 20;
 
 /// A line of the table.
@@ -85,7 +85,7 @@ fn title(builtin: &Builtin, map: &NamedMap, query: Ends, screen: &mut Screen) ->
     writeln!(screen, "\n  {name} · {width} × {height} · {}, {start} to {goal}\n", builtin.caption)
 }
 
-/// How the path of a row is drawn on the map; `None` if it is not drawn.
+/// The stroke and the color of a row's path on the map; `None` if it is not drawn.
 fn stroke(row: &Row) -> Option<(Stroke, RgbColor)> {
     match (row.rules.placement(), row.k) {
         (PlacementKind::Corner, K::Finite(FiniteK::N4)) => Some((Stroke::Dotted, INKS.four)),

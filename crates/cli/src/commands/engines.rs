@@ -12,7 +12,7 @@ use crate::{
     },
 };
 
-/// How to read the table.
+/// The notes under the table.
 const NOTES: &str = "\
 `both` is center and corner. optimal(k) at k = any: no legal path is shorter.
 At centers subgoal, hpa and chpa take k = 2, and k = 3 with corners never.";

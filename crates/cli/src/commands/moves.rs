@@ -61,8 +61,8 @@ fn facts(neighborhood: Neighborhood, screen: &mut Screen) -> Result<(), Failure>
     Ok(())
 }
 
-/// How many of the first moves of a quadrant are listed, and how many of the last. A quadrant that has at
-/// most one more move than that is listed in full.
+/// The number of moves that are listed at each end of a quadrant. A quadrant that has at most one more move
+/// than the two ends is listed in full.
 const SHOWN: u64 = 16;
 
 /// Lists the moves of a quadrant.

@@ -7,7 +7,7 @@ pub(crate) const DOT_ROWS: usize = 4;
 /// Dots beside each other in one character.
 pub(crate) const DOT_COLUMNS: usize = 2;
 
-/// How a line is drawn.
+/// The pattern of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stroke {
     Solid,

@@ -30,7 +30,7 @@ pub(crate) struct RunHead<'r> {
     pub(crate) guarantee: Guarantee,
     /// The engine of `--reference`, which finds the shortest any-angle paths to compare with.
     pub(crate) reference: Option<Engine>,
-    /// How often each query is timed.
+    /// The number of times that each query is timed.
     pub(crate) repeat: u32,
     /// Whether each query is answered on the ground of its start.
     pub(crate) grounds: bool,
@@ -77,7 +77,7 @@ impl fmt::Display for Unanswered {
     }
 }
 
-/// How a query was answered.
+/// The outcome of a query that could be answered.
 #[derive(Clone, Debug)]
 pub(crate) enum QueryAnswer {
     Found(Found),

@@ -29,7 +29,7 @@ use crate::{args::QueryArgs, terminal::screen::Screen};
 /// records of less than a second.
 pub(crate) struct Jsonl<'s> {
     screen: &'s mut Screen,
-    /// How long lines may wait in the buffer.
+    /// The time that lines may wait in the buffer.
     patience: Duration,
     flushed: Instant,
     /// Where vertices are in the world.
@@ -257,7 +257,7 @@ fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value)
     (option.name.replace('-', "_"), value)
 }
 
-/// How a query ended.
+/// The outcome of a query, in a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Status {
@@ -324,11 +324,11 @@ struct QueryLine<'a> {
     generated: u64,
     /// Swaps in the open list's heap.
     percolations: u64,
-    /// How often a cheaper path to a known node was found.
+    /// Cheaper paths found to known nodes.
     updated: u64,
     /// Vertices that jumps looked at.
     scanned: u64,
-    /// How often CHPA* left its plan.
+    /// The number of times that CHPA* left its plan.
     fallbacks: u64,
     /// The time of the query alone on a warm planner, the best of all repetitions; 0 for errors.
     nanos: u64,

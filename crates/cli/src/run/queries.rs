@@ -71,7 +71,7 @@ impl Queries {
         }
     }
 
-    /// How many there are.
+    /// The number of queries.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Single(_) => 1,

@@ -31,7 +31,7 @@ pub(crate) fn explain(error: QueryError, map: &NamedMap, placement: PlacementKin
 /// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none
 /// nearby.
 fn nearest_free(grid: &Grid, placement: PlacementKind, at: Vertex) -> Option<Vertex> {
-    /// How far away it may be, in each coordinate.
+    /// The greatest distance, in each coordinate.
     const REACH: i32 = 64;
     let around =
         (-REACH..=REACH).flat_map(|dy| (-REACH..=REACH).map(move |dx| Vertex::new(at.x + dx, at.y + dy)));

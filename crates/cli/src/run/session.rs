@@ -22,7 +22,7 @@ pub(crate) struct Session<'s> {
     pub(crate) trace: Option<TraceFile<'s>>,
 }
 
-/// How a session ended.
+/// The results of a session.
 pub(crate) struct Finished {
     pub(crate) summary: Summary,
     /// The first query that could not be answered, if any: its index, and why.

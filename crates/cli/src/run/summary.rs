@@ -30,7 +30,7 @@ pub(crate) struct Summary {
     pub(crate) mean_percolations: f64,
     pub(crate) mean_updated: f64,
     pub(crate) mean_scanned: f64,
-    /// How often CHPA* left its plan, in all.
+    /// The number of times that CHPA* left its plan, in all.
     pub(crate) fallbacks: u64,
     /// `null` if no path was found.
     pub(crate) mean_cost: Option<f64>,
@@ -39,7 +39,7 @@ pub(crate) struct Summary {
     /// The certificates: how many times as long as the shortest any-angle paths the paths are at most. `null`
     /// if no path was found.
     pub(crate) bound: Option<Ratios>,
-    /// How many times as long as the shortest any-angle paths they are; `null` without `--reference` or a
+    /// The ratios of the paths to the shortest any-angle paths, in length; `null` without `--reference` or a
     /// path.
     pub(crate) ratio: Option<Ratios>,
     /// `null` if no answered query can be compared with a reference.
@@ -55,8 +55,8 @@ pub(crate) struct Ratios {
     pub(crate) worst_index: usize,
 }
 
-/// How the costs of paths between the scenario's ends compare with its lengths. No path counts as length 0,
-/// as in scenarios.
+/// A comparison of the costs of paths between the scenario's ends with its lengths. No path counts as length
+/// 0, as in scenarios.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct References {
     /// The number of queries that are compared.

@@ -333,7 +333,7 @@ impl Report for TableReport<'_> {
 /// Up to this ratio a path counts as no longer than another: the difference may be rounding.
 const NO_LONGER: f64 = 1.0 + 1e-9;
 
-/// How often plans were left, in words.
+/// The number of times that plans were left, in words.
 fn left(times: u64) -> String {
     match times {
         0 => "never left".to_owned(),

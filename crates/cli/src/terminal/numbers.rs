@@ -33,7 +33,7 @@ pub(crate) fn count(n: u64, one: &str, many: &str) -> String {
     format!("{} {}", grouped(n), if n == 1 { one } else { many })
 }
 
-/// How much more than 1 a ratio is, in percent with a sign: `+8.24 %`.
+/// The excess of a ratio over 1, in percent with a sign: `+8.24 %`.
 pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     let percent = (ratio - 1.0) * 100.0;
     // A negative number that is rounded to zero must not have a minus.
@@ -41,7 +41,7 @@ pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     format!("{percent:+.digits$} %")
 }
 
-/// How much more than 1 a ratio of two lengths is, in percent, with more digits if it is little: `8.24 %`,
+/// The excess of a ratio of two lengths over 1, in percent, with more digits if it is little: `8.24 %`,
 /// `0.0120 %`.
 pub(crate) fn excess(ratio: f64) -> String {
     let percent = (ratio - 1.0) * 100.0;

@@ -10,7 +10,7 @@ use std::{
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use mediant::search::Stage;
 
-/// How long a job may take without a bar.
+/// The time that a job may take without a bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 
 /// The bar of `mediant run`, which appears only if the job takes long.

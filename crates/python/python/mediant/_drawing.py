@@ -1,4 +1,4 @@
-"""How `mediant.plot` draws with matplotlib, and what it makes of its arguments."""
+"""The drawing of `mediant.plot` with matplotlib, and the conversion of its arguments."""
 
 from __future__ import annotations
 
@@ -59,14 +59,14 @@ ARROWS = 28
 
 
 class Canvas:
-    """Axes, with what says where a vertex is on them.
+    """Axes, with the places of vertices on them.
 
     Parameters
     ----------
     ax : matplotlib.axes.Axes or None
-        Where to draw; the current axes if None.
+        The axes to draw on; the current ones if None.
     placement : {"center", "corner"}
-        Where the vertices of paths and of arrays are.
+        The placement of the vertices of paths and of arrays.
     world : World or None
         To draw in meters rather than in cells.
     """

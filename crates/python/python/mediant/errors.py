@@ -28,7 +28,7 @@ class MediantError(ValueError):
     Parameters
     ----------
     message : str
-        What was expected, what was found, and how to mend it.
+        A text: what was expected, what was found, and how to mend it.
     code : str
         A stable name of the kind of mistake, such as ``"start-blocked"``.
 

@@ -76,11 +76,11 @@ def show(
     flow : Field or array of float, shape (..., 2), optional
         The direction at each vertex, as (rows, columns); drawn as arrows.
     placement : {"center", "corner"}
-        Where the vertices of all of these are.
+        The placement of the vertices of all of these.
     levels : int or sequence of float, optional
         Draw lines of equal distance: about how many, or at which distances.
     ax : matplotlib.axes.Axes, optional
-        Where to draw. Otherwise in a new figure, in the proportions of the map.
+        The axes to draw on. Otherwise those of a new figure, in the proportions of the map.
     world : World, optional
         ``grid.world``, to draw in meters.
 
@@ -140,7 +140,7 @@ def grid(
     grid : Grid or array of bool, shape (rows, columns)
         The map; True is blocked.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; the current axes by default.
+        The axes to draw on; the current ones by default.
     world : World, optional
         ``grid.world``, to draw in meters.
     **image
@@ -179,9 +179,9 @@ def field(
     field : Field or array of float
         The distance of each vertex, in cells; infinite where there is none.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; the current axes by default.
+        The axes to draw on; the current ones by default.
     placement : {"center", "corner"}
-        Where the vertices are: an array at corners has a row and a column more than the map.
+        The placement of the vertices: an array at corners has a row and a column more than the map.
     levels : int or sequence of float, optional
         Draw lines of equal distance: about how many, or at which distances.
     world : World, optional
@@ -221,9 +221,9 @@ def path(
     path : path, sequence of paths, `Paths`, or mapping of names to paths
         Each an array of shape (n, 2), or None where there is no path. Names are the labels of a legend.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; the current axes by default.
+        The axes to draw on; the current ones by default.
     placement : {"center", "corner"}
-        Where the vertices are.
+        The placement of the vertices.
     world : World, optional
         ``grid.world``, to draw in meters.
     **line
@@ -268,9 +268,9 @@ def flow(
     flow : Field or array of float, shape (..., 2)
         The direction at each vertex, as (rows, columns). There is no arrow where it is (0, 0) or no number.
     ax : matplotlib.axes.Axes, optional
-        Where to draw; the current axes by default.
+        The axes to draw on; the current ones by default.
     placement : {"center", "corner"}
-        Where the vertices are.
+        The placement of the vertices.
     arrows : int
         The most arrows along a side. On a larger map there is one for every few vertices.
     world : World, optional

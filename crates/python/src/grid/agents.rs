@@ -18,7 +18,7 @@ use crate::{
 
 #[pymethods]
 impl Grid {
-    /// How far each cell is from the nearest obstacle.
+    /// The distance of each cell to the nearest obstacle.
     ///
     /// Parameters
     /// ----------
@@ -161,7 +161,7 @@ impl Grid {
     /// start, goal : tuple of int
     ///     (row, column).
     /// surplus : float
-    ///     How much longer it may be: 0.1 allows 10 % more.
+    ///     The allowed excess over the shortest length: 0.1 allows 10 % more.
     /// points : {"waypoints", "vertices", "touched"}
     ///     The points of the array: see `find`.
     /// **motion

@@ -21,8 +21,8 @@ impl Grid {
     /// sources : array_like of int
     ///     A point (row, column), or several with shape (n, 2).
     /// limit : float, optional
-    ///     How far to go, in cells. A vertex at exactly that distance is in the field: the distance of a
-    ///     vertex, as a limit, reaches that vertex.
+    ///     The greatest distance, in cells. A vertex at exactly that distance is in the field: the distance
+    ///     of a vertex, as a limit, reaches that vertex.
     /// **motion
     ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
@@ -101,7 +101,7 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float
-    ///     How far to go, in cells; what is exactly so far is reached.
+    ///     The greatest distance, in cells; a vertex at exactly that distance is reached.
     /// **motion
     ///     As in `find`.
     ///

@@ -42,11 +42,11 @@ use crate::grid::Grid;
 /// setup : str
 ///     All of it and the options in one text: the same text, the same answers.
 /// origin : {"prepared", "loaded", "repaired", "unchanged"}
-///     How it came about.
+///     The way in which it came about.
 /// guarantee : str
 ///     The guarantee of its paths.
 /// bound : float or None
-///     How much longer than the shortest at any angle its paths can be, as a factor; None if nothing is
+///     An upper bound on its paths' lengths, as a multiple of the shortest at any angle; None if nothing is
 ///     proven.
 /// memory_bytes : int
 ///     The memory that it uses beyond the grid.
@@ -136,7 +136,7 @@ impl Index {
         self.setup().to_string()
     }
 
-    /// How it came about.
+    /// The way in which it came about.
     #[getter]
     fn origin(&self) -> &'static str {
         self.planners.index().origin().name()
@@ -153,7 +153,7 @@ impl Index {
         }
     }
 
-    /// How much longer than the shortest path at any angle its paths can be.
+    /// An upper bound on its paths' lengths, as a multiple of the shortest at any angle.
     #[getter]
     fn bound(&self) -> Option<f64> {
         self.guarantee().1

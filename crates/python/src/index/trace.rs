@@ -11,7 +11,7 @@ use pyo3::{exceptions::PyMemoryError, prelude::*};
 
 use crate::{background::LOOK, errors::raised};
 
-/// How many expansions there are between two looks at the clock.
+/// The number of expansions between two looks at the clock.
 const EXPANSIONS_PER_LOOK: u32 = 64;
 
 /// An event of a vertex.

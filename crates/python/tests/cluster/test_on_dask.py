@@ -26,7 +26,7 @@ def client():
 
 
 def caches(client):
-    """What the caches of the workers count, by the numbers of their processes."""
+    """The counts of the workers' caches, by the numbers of their processes."""
     return {info["process"]: info for info in client.run(lambda: batch.cache.info()).values()}
 
 

@@ -36,7 +36,7 @@ def cluster(tmp_path_factory):
 
 
 def caches(processes=2):
-    """What the caches of the workers count, by the numbers of their processes."""
+    """The counts of the workers' caches, by the numbers of their processes."""
 
     @ray.remote(num_cpus=1)
     def info():

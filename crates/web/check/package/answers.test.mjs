@@ -1,4 +1,4 @@
-// What answers, traces, fields and pictures say, against each other and against single queries.
+// Answers, traces, fields and pictures, compared with each other and with single queries.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -1,4 +1,4 @@
-// What the canvases show, at the places of the map where it must be.
+// The colors of the canvases, at places of the map where they are known.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -47,7 +47,7 @@ function along(path, shift, count) {
   return places;
 }
 
-/** Which share of places has a color. @param {Page} page @param {Point[]} places @param {string} name
+/** The share of the places that have a color. @param {Page} page @param {Point[]} places @param {string} name
  *  @param {number} [lane] */
 async function share(page, places, name, lane = 0) {
   const [color, found] = [await token(page, name), await colorsAt(page, places, lane)];

@@ -22,7 +22,7 @@ async function firstPath() {
   return time;
 }
 
-/** How many times as long as usual this machine takes now, by the fixed loop of `.ci/common`; at least 1. */
+/** The present slowness of this machine as a factor, by the fixed loop of `.ci/common`; at least 1. */
 function slowness() {
   const common = fileURLToPath(new URL("../../../../.ci/common", import.meta.url));
   const loop = 'source "$0" && echo "$(yardstick) $usual"';

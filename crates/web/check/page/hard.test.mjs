@@ -195,7 +195,7 @@ for (const [what, phase, name, side, setup] of /** @type {const} */ ([
   test(`${what} is cancelled, and the page answers meanwhile`, async (t) => {
     const context = await site.context();
     await context.addInitScript(() => {
-      /** What workers said. @type {string[]} */
+      /** The types of the workers' messages. @type {string[]} */
       const heard = [];
       const Own = Worker;
       Object.assign(globalThis, {
@@ -236,7 +236,7 @@ for (const [what, phase, name, side, setup] of /** @type {const} */ ([
     await page.waitForTimeout(500);
     const heard = await page.evaluate(() => /** @type {any} */ (globalThis).heard);
     assert.deepEqual(heard, [], "a cancelled lane works on");
-    // What was cancelled can be asked again, or for something else.
+    // A cancelled lane can start again, or take another engine.
     await page.getByRole("button", { name: "Start lane 1 again" }).click();
     await page.waitForFunction(() => {
       const { phase } = /** @type {any} */ (globalThis).mediant.lanes.list[0];

@@ -9,7 +9,7 @@ import { picture, Site, settled } from "../browser.mjs";
 
 const site = new Site();
 
-/** What has the focus: its role and name, as a screen reader says it. @param {Page} page */
+/** The element that has the focus: its tag, name and whether it is visible. @param {Page} page */
 const focused = (page) =>
   page.evaluate(() => {
     const element = document.activeElement;

@@ -159,7 +159,7 @@ test("an invalid query has the package's code and text", async () => {
   );
 });
 
-/** What a button of the menu saves. @param {Page} page @param {RegExp} what */
+/** The text that a button of the menu saves. @param {Page} page @param {RegExp} what */
 async function saved(page, what) {
   await page.locator("#save > summary").click();
   const [download] = await Promise.all([

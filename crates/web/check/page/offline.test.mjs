@@ -39,7 +39,7 @@ test("after the first visit the page works without a network", async () => {
   await page.context().setOffline(true);
   await page.reload();
   await settled(page);
-  // What was not used before is there, too.
+  // Engines and maps that were not used before are there, too.
   await setLanes(page, { engine: "jps" }, { engine: "anya", k: "any", placement: "corner" });
   await settled(page);
   for (const { answer } of await lanes(page)) assert.equal(answer.status, "found");

@@ -11,7 +11,7 @@ import { picture, Site, settled } from "../browser.mjs";
 const site = new Site();
 const READS = { permissions: ["clipboard-read", "clipboard-write"] };
 
-/** What must be the same after the way through a link or a file. @param {Page} page */
+/** The parts of the scene that a link and a file must keep. @param {Page} page */
 async function all(page) {
   const { start, goal, lanes: setups, active, overlay, nearest, radius } = await scene(page);
   const lengths = (await lanes(page)).map(({ answer }) => answer.length);
@@ -48,7 +48,7 @@ async function linkOf(page) {
   return page.evaluate(() => navigator.clipboard.readText());
 }
 
-/** What a download holds, and its name. @param {Page} page @param {RegExp} what */
+/** Saves a file by the menu, and gives its name and content. @param {Page} page @param {RegExp} what */
 async function save(page, what) {
   await page.locator("#save > summary").click();
   const [download] = await Promise.all([

@@ -1,4 +1,4 @@
-// What lies over the map, and agents who walk on it.
+// Overlays of the map, and agents that walk on it.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -10,7 +10,7 @@ import { load, spaceOf } from "../truth.mjs";
 
 const site = new Site();
 
-/** What the canvases of the stage show, without the words beside, so that a test sees whether something else
+/** The pictures of the stage's canvases, without the words beside, so that a test sees whether something else
  *  is drawn. @param {Page} page */
 const colors = (page) =>
   page

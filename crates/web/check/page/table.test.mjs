@@ -1,4 +1,4 @@
-// What the table of lanes and the captions say: who wins, what is proven, and names that can be read.
+// The table of lanes and the captions: the winner, proofs, and names that can be read.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";

@@ -11,7 +11,7 @@ import { HERE, PACKAGE, SOURCES, WEB } from "../places.mjs";
 const TSC = join(HERE, "node_modules/.bin/tsc");
 const FOLDER = join(WEB, "types");
 
-/** What the compiler finds in these files. @param {string} folder @param {object} config */
+/** The compiler's findings in these files, empty if none. @param {string} folder @param {object} config */
 function check(folder, config) {
   const file = join(folder, "tsconfig.json");
   writeFileSync(file, JSON.stringify(config));
@@ -60,7 +60,7 @@ test("a program that uses all of the package", () => {
     });
     assert.equal(found, "", moduleResolution);
   }
-  // What is wrong must be seen: otherwise the types would allow anything.
+  // Each mistake must be found: otherwise the types would allow anything.
   const lines = readFileSync(join(HERE, "types/mistakes.ts"), "utf8").split("\n");
   writeFileSync(join(folder, "mistakes.ts"), lines.join("\n"));
   const found = check(folder, { compilerOptions: options, include: ["mistakes.ts"] });

@@ -87,7 +87,7 @@ function keepOffline() {
 /** @param {Model} model @param {() => void} help */
 function startParts(model, help) {
   const lanes = new Lanes(model);
-  // What is fetched for later does not delay what is shown first.
+  // The files for use without a network are fetched late: they do not delay the first path.
   const late = new Promise((done) => setTimeout(done, OFFLINE_AFTER));
   Promise.race([firstPath(lanes), late]).then(keepOffline);
   const player = new Player(lanes);

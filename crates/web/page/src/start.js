@@ -8,7 +8,7 @@ import "./panels/theme-first.js";
 import { addressOf, unpacked } from "./files.js";
 import { banner, sentence } from "./panels/message.js";
 
-/** What this browser lacks, as a sentence; empty if it has all that is needed. */
+/** The feature that this browser lacks, as a sentence; empty if it has all that are needed. */
 function missing() {
   const hint = "A current browser is needed.";
   if (typeof WebAssembly !== "object") {

@@ -1,12 +1,12 @@
 // Workers of the page. All run one script, which start.js has loaded; a name tells each what it is for.
 
 /**
- * A lane's queries; what is no lane's query; large generated maps.
+ * A lane's queries; all other questions to the package; large generated maps.
  * @typedef {"lane" | "helper" | "maker"} Role
  */
 
 /**
- * What start.js has loaded.
+ * The scripts and engines that start.js has loaded.
  * @typedef {object} Loaded
  * @property {string} worker - The address of the workers' script.
  * @property {Promise<WebAssembly.Module>} engines
@@ -37,7 +37,7 @@ export function compiled() {
 /** @param {Promise<WebAssembly.Module>} engines */
 function keep(engines) {
   module = engines;
-  // Who asks again, tries again.
+  // After a failure the next call tries again.
   engines.catch(() => (module = undefined));
   return engines;
 }

@@ -16,8 +16,8 @@ use crate::{
 
 #[wasm_bindgen]
 impl Grid {
-    /// How far the center of each cell is from the nearest obstacle, in cells, row by row: 0 in blocked
-    /// cells. The outside of the map is an obstacle.
+    /// The distance of each cell's center to the nearest obstacle, in cells, row by row: 0 in blocked cells.
+    /// The outside of the map is an obstacle.
     pub fn clearance(&self) -> Result<Float64Array, JsValue> {
         let (width, height) = (self.map.width() as usize, self.map.height() as usize);
         let mut distances = room(width * height, 0.0, "the array of distances")?;

@@ -222,10 +222,10 @@ impl Grid {
     }
 }
 
-/// How many cells a rectangle has.
+/// The number of cells of a rectangle, for messages.
 const SIDES: &str = "width × height";
 
-/// Why cells are 0 or 1, and how to make them.
+/// The reason why cells are 0 or 1, and the way to make them.
 fn no_costs() -> String {
     format!("{NO_COSTS}; make cells, for instance Uint8Array.from(costs, (cost) => Number(cost > limit))")
 }

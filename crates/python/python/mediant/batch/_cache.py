@@ -24,7 +24,7 @@ class Cache:
     Parameters
     ----------
     limit_bytes : int
-        What the indexes may take in all, by their `memory_bytes`, with their maps.
+        The most memory of all indexes together, by their `memory_bytes`, with their maps.
 
     Examples
     --------
@@ -51,7 +51,7 @@ class Cache:
         Parameters
         ----------
         key : hashable
-            What tells the index from others: the map, the engine, the motion and the options.
+            The identity of the index: its map, engine, motion and options.
         make : callable
             Makes it. While it runs, others who ask for the same key wait, and others work on.
 

@@ -100,7 +100,7 @@ def job_of(queries: Any, solver: Solver, rows: int | None, slots: int, to: Any) 
     slots : int
         The tasks that can run at once.
     to : path or None
-        Where the parts will be written. It must hold none.
+        The folder for the parts. It must hold none.
     """
     if rows is not None and rows < 1:
         raise ValueError(f"partition_rows is at least 1, not {rows}")

@@ -101,8 +101,8 @@ def waypoints(column: Any) -> tuple[NDArray[np.int32], NDArray[np.int64]]:
     points : ndarray of int32, shape (n, 2)
         The points of all paths, one path after another: (row, column).
     offsets : ndarray of int64, shape (rows + 1,)
-        Where they begin: the path of row i is ``points[offsets[i]:offsets[i + 1]]``, empty where there is
-        none.
+        The index of each path's first point: the path of row i is ``points[offsets[i]:offsets[i + 1]]``,
+        empty where there is none.
 
     Raises
     ------

@@ -48,8 +48,8 @@ class Solver:
     threads : int, optional
         The threads that prepare a map and answer its queries. All cores, if None.
     invalid : {"none", "raise"}
-        What to do with an end that is blocked, outside its map, or null: say so in the column ``status``, or
-        raise an error that names the row. A query at which the engine gives up, as CHPA* in the variant of
+        The answer to an end that is blocked, outside its map, or null: a word in the column ``status``, or an
+        error that names the row. A query at which the engine gives up, as CHPA* in the variant of
         its paper may, counts as invalid, too.
     **options
         `nearest`, `tolerance`, `snap`, `max_cost`, `max_expansions`, `timeout` as for `Index.paths`, and the
@@ -92,7 +92,7 @@ class Solver:
         self._how = {**wishes, "points": points, "threads": threads}
         self.paths, self.threads, self._strict = paths, threads, _is_strict(invalid)
         if not all(isinstance(source, OfIndex) for source in self._sources.values()):
-            self._setup.prepare(Grid.from_rows(["."]), 1)  # What cannot be is said here, not on a worker.
+            self._setup.prepare(Grid.from_rows(["."]), 1)  # Mistakes are found here, not on a worker.
 
     def __call__(self, queries: Any, *, progress: Progress | None = None, first_row: int = 0) -> pa.Table:
         """Answer a table.
@@ -164,7 +164,7 @@ class Solver:
         Parameters
         ----------
         threads : int or None
-            How many threads a call may have there.
+            The number of threads that a call may have there.
         indexes : bool
             Whether the indexes are made here, and their bytes sent, rather than the maps.
         """

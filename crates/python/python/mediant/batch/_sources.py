@@ -1,4 +1,4 @@
-"""Where an index comes from: a map, a file, an index, or the bytes of one of these."""
+"""The sources of an index: a map, a file, an index, or the bytes of one of these."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ OneMap = Union[Grid, Index, str, "os.PathLike[str]", "tuple[Any, Any]", Any]
 
 
 class Setup(NamedTuple):
-    """How maps are prepared. None leaves a choice to the engine, or to an index that is given."""
+    """The engine, motion and options of indexes. None leaves a choice to the engine, or to a given index."""
 
     engine: str | None
     k: Any

@@ -47,7 +47,7 @@ def ray(
         Whether the indexes are made here, and sent instead of the maps. An index that is given is always
         sent.
     retries : int
-        How often a task may lose its worker.
+        The number of times that a task may lose its worker.
     **how
         As for `Solver`.
 

@@ -1,8 +1,8 @@
-// What a `change` event of the model says: its rectangle of cells, and two changes as one.
+// The details of the model's `change` events: the rectangle of changed cells, and two changes as one.
 
 /** @typedef {import("../../types.d.ts").Rect} Rect */
 
-/** What a change of the model touched. `gesture`: a gesture began or ended.
+/** The parts of the scene that a change touched. `gesture`: a gesture began or ended.
  * @typedef {import("../../types.d.ts").Change & { gesture?: boolean }} Change */
 
 /** The smallest rectangle around the cells that are added. */

@@ -64,7 +64,7 @@ function largestPart(spread) {
   return best;
 }
 
-/** How many cells the largest connected part has.
+/** The number of free cells in the largest connected part.
  * @param {number} width @param {number} height @param {Uint8Array} cells */
 export function sizeOfLargestPart(width, height, cells) {
   return largestPart(new Spread(width, height, cells)).count;
@@ -82,7 +82,7 @@ export function keepLargestPart(width, height, cells) {
   return count;
 }
 
-/** How many free cells are around a cell, two cells far.
+/** The number of free cells among the 5 × 5 around a cell.
  * @param {number} cell @param {number} width @param {number} height @param {Uint8Array} cells */
 function roomAround(cell, width, height, cells) {
   const [x, y] = [cell % width, Math.floor(cell / width)];

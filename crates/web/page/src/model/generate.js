@@ -14,7 +14,7 @@ import { generators, PERCENTS, whyNotGenerated } from "./generators.js";
 
 /** @typedef {import("../../types.d.ts").Point} Point */
 
-/** What makes the cells, by the names of the generators.
+/** The functions that make the cells, by the names of the generators.
  * @type {Record<string, (side: number, random: Random) => Uint8Array>} */
 const makers = {
   obstacles,

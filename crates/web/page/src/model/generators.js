@@ -1,6 +1,6 @@
-// Which maps can be generated. What makes them is in generate.js.
+// The list of generators of maps. The functions that make the cells are in generate.js.
 
-/** `title`: what a menu shows. `about`: what the map is, as a sentence. `side`: a side that suits it.
+/** `title`: the name in menus. `about`: a description of the map. `side`: a side that suits it.
  * @typedef {object} Generator
  * @property {string} name
  * @property {string} title
@@ -14,7 +14,7 @@ const MOST_SIDE = 4096;
 /** The sides that a menu offers. */
 export const SIDES = Object.freeze([64, 128, 256, 512, 1024, 2048, 4096]);
 
-/** How many of a hundred cells the random maps block. */
+/** The percentages of blocked cells in the random maps. */
 export const PERCENTS = Object.freeze([10, 20, 30, 40]);
 
 /** @type {readonly Readonly<Generator>[]} */
@@ -62,7 +62,7 @@ export const generators = Object.freeze([
   })),
 ]);
 
-/** Why there is no such map, as a sentence; empty if there is.
+/** The mistake in the request for a generated map, as a sentence; empty if there is none.
  * @param {string} name @param {number} side @param {number} seed */
 export function whyNotGenerated(name, side, seed) {
   if (!generators.some((generator) => generator.name === name)) return `There is no generated map "${name}".`;

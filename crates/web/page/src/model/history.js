@@ -6,7 +6,7 @@ import { BitSet } from "./bits.js";
 /** @typedef {import("../../types.d.ts").Point} Point */
 /** @typedef {import("./terrain.js").PackedTerrain} PackedTerrain */
 
-/** What one step changed: cells that were flipped, ends that were elsewhere, or the map.
+/** The other side of a step: the cells that it flips, the ends of then, or the map of then.
  * @typedef {object} Step
  * @property {Uint32Array | BitSet | null} cells
  * @property {[Point, Point] | null} ends
@@ -15,7 +15,7 @@ import { BitSet } from "./bits.js";
 const LIMIT_BYTES = 64 * 1024 * 1024;
 const LIMIT_STEPS = 1000;
 
-/** What a step holds besides its cells, roughly. */
+/** The rough size of a step besides its cells and map, in bytes. */
 const STEP_BYTES = 200;
 
 /** The flipped cells in the form that takes less memory: a list of few, or a bit for each cell.
@@ -59,7 +59,7 @@ export class History {
     this.#undone = [];
   }
 
-  /** A step that was just done. What was undone before it cannot be redone any more.
+  /** Adds a step that was just done. Steps that were undone before it cannot be redone any more.
    * @param {Step} step */
   push(step) {
     this.#undone = [];

@@ -4,8 +4,8 @@
 //
 // with the version first and a check of all that comes before last, so that a link that was cut or changed is
 // known for it. MAP is b.NAME (bundled), g.NAME.SIDE.SEED (generated), e.WIDTH.HEIGHT (empty) or
-// f.WIDTH.HEIGHT.NAME (a file, whose blocked cells the edits hold; F if it was edited). What is as in a new
-// scene is left out.
+// f.WIDTH.HEIGHT.NAME (a file, whose blocked cells the edits hold; F if it was edited). Settings that are as
+// in a new scene are left out.
 
 import { BitSet } from "./bits.js";
 import { deflate, digest, fromRuns, fromText, inflate, toRuns, toText } from "./bytes.js";
@@ -27,7 +27,7 @@ const LONGEST = 30_000;
 /** The most bytes that the edits may have before they are deflated. */
 const MOST_BYTES = 4 * 1024 * 1024;
 
-/** Why `encode` gives null. */
+/** The message to the user where `encode` gives null. */
 export const TOO_LARGE = "The scene is too large for a link; save the scene as a file.";
 
 /** @param {string} text */
@@ -39,7 +39,7 @@ function checkOf(text) {
  * @param {Model} model @returns {Promise<string | null>} */
 export async function encode(model) {
   const { source, width, height } = model;
-  // What can be changed while the edits are packed is read before.
+  // Read first: the scene may change while the edits are packed.
   const text = [VERSION, mapText(model), ...settingsTexts(settingsOf(model))];
   const numbers = source.kind === "file" ? BitSet.of(model.cells).toList() : model.edits();
   text.push(`h${digestOf(model.cells)}`);

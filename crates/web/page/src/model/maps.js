@@ -46,7 +46,7 @@ export const bundled = Object.freeze([
   },
 ]);
 
-/** What a menu and a file name call the map.
+/** The name of the map in menus and in the names of saved files.
  * @param {MapSource} source */
 export function titleOf(source) {
   switch (source.kind) {

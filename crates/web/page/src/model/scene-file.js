@@ -70,7 +70,7 @@ function parsed(text) {
   }
 }
 
-/** Why these are no rows of cells, as a sentence; empty if they are.
+/** The mistake in rows of cells, as a sentence; empty if there is none.
  * @param {unknown} rows */
 function whyNoRows(rows) {
   if (!Array.isArray(rows) || typeof rows[0] !== "string") return "It has no rows of cells.";

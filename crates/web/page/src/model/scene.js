@@ -47,7 +47,7 @@ export function digestOf(cells) {
   });
 }
 
-/** Why there is no such source, as a sentence; empty if there is.
+/** The mistake in the source of a map, as a sentence; empty if there is none.
  * @param {MapSource} source */
 export function whyNoSource(source) {
   switch (source?.kind) {
@@ -66,7 +66,7 @@ export function whyNoSource(source) {
   }
 }
 
-/** Why these are no settings, as a sentence; empty if they are. The ends may be outside of the map.
+/** The mistake in settings, as a sentence; empty if there is none. The ends may be outside of the map.
  * @param {Settings} settings */
 export function whyNoSettings({ start, goal, lanes, active, overlay, nearest, radius, agents }) {
   /** @param {unknown} end */

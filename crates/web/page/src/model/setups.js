@@ -1,4 +1,4 @@
-// What lanes, overlays, wishes and sizes may be: the checks that the model and the scenes in links share.
+// The allowed lanes, overlays, wishes and sizes: the checks that the model and the scenes in links share.
 // Whether an engine and a motion go together is for the engines to say (`Lanes.check`).
 
 /** @typedef {import("../../types.d.ts").LaneSetup} LaneSetup */
@@ -30,7 +30,7 @@ export const FIRST_LANE = Object.freeze({
   smooth: "",
 });
 
-/** Why this is no lane, as a sentence; empty if it is one.
+/** The mistake in the setup of a lane, as a sentence; empty if there is none.
  * @param {unknown} setup */
 export function whyNoLane(setup) {
   if (typeof setup !== "object" || setup === null) return "A lane needs an engine and a motion.";
@@ -52,7 +52,7 @@ export function whyNoLane(setup) {
   return "";
 }
 
-/** Why these cannot be the lanes of a scene, as a sentence; empty if they can.
+/** The first mistake in the lanes of a scene, as a sentence; empty if there is none.
  * @param {unknown} lanes */
 export function whyNoLanes(lanes) {
   if (!Array.isArray(lanes) || lanes.length < 1 || lanes.length > MOST_LANES) {
@@ -61,7 +61,7 @@ export function whyNoLanes(lanes) {
   return lanes.map(whyNoLane).find((why) => why !== "") ?? "";
 }
 
-/** Why a map cannot have this size, as a sentence; empty if it can.
+/** The objection to a map of this size, as a sentence; empty if there is none.
  * @param {unknown} width @param {unknown} height */
 export function whyNoSize(width, height) {
   /** @param {unknown} side */
@@ -73,7 +73,7 @@ export function whyNoSize(width, height) {
   return "";
 }
 
-/** Why this is no map, as a sentence; empty if it is one.
+/** The mistake in the size of a map or in the number of its cells, as a sentence; empty if there is none.
  * @param {unknown} width @param {unknown} height @param {ArrayLike<number>} cells */
 export function whyNoMap(width, height, cells) {
   const why = whyNoSize(width, height);

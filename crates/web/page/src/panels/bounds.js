@@ -1,4 +1,4 @@
-// What each k is worth: the bounds of the package, asked once for each motion.
+// The bound of each k, by the package, which is asked once for each motion.
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {Map<number | "any", number | null>} ByK */

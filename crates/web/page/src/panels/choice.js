@@ -16,7 +16,7 @@ export class Choice {
   element;
   /** @type {Map<string, HTMLInputElement>} */
   #inputs = new Map();
-  /** Why some options cannot be chosen. The panel places it. */
+  /** The line that says why some options cannot be chosen. The panel places it. */
   reason = h("p", { class: "reason muted", hidden: true });
 
   /**

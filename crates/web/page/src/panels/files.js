@@ -52,7 +52,7 @@ export class Files {
       const scene = await encode(this.#model);
       if (scene === null) throw new Error(TOO_LARGE);
       const link = new URL(`#${scene}`, location.href).href;
-      // Who loads the page anew has the scene, too.
+      // The address gets the link: a reload of the page opens this scene, too.
       history.replaceState(null, "", link);
       const isCopied = await copy(link);
       const where = isCopied ? "is copied" : "is in the address bar now";

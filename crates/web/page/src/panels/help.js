@@ -31,24 +31,21 @@ const WORDS = [
   ["mediant", "The sum of two neighboring moves. N(k + 1) has one between every two moves of N(k)."],
   [
     "excess",
-    "How much longer a path is than the shortest path at any angle; at centers, than the shortest " +
-      "over N(k).",
+    "The length of a path beyond that of the shortest at any angle, in percent; at centers, beyond " +
+      "that of the shortest over N(k).",
   ],
-  [
-    "certificate",
-    "What is proven of this one path: it is at most so much longer than the shortest at any " + "angle.",
-  ],
+  ["certificate", "A proof for this one path: it is at most so much longer than the shortest at any angle."],
   ["expansion", "The search takes a vertex from its open list and looks at its successors."],
   ["open", "Vertices that were reached but not expanded."],
-  ["placement", "Where vertices are: at the centers of cells, or at their corners."],
+  ["placement", "The place of the vertices: at the centers of cells, or at their corners."],
   [
     "corner cutting",
     "At centers: of the two cells beside a corner point that a move passes, how many may be " +
       "blocked: none, one, or both.",
   ],
   ["gap", "A corner at which two blocked cells touch diagonally. A path may pass it, or it may not."],
-  ["clearance", "How far the nearest obstacle is, in a straight line."],
-  ["index", "What an engine prepares of a map once, so that queries are fast."],
+  ["clearance", "The distance to the nearest obstacle, in a straight line."],
+  ["index", "Data that an engine prepares from a map once, so that queries are fast."],
   ["optimal(k)", "No path over N(k) is shorter. At k = ∞: no legal path at all."],
 ];
 
@@ -84,7 +81,7 @@ export function startHelp() {
 }
 
 /**
- * What stands at the left of each entry, and what it means.
+ * A list of terms and their meanings. `draw` gives the left side of an entry.
  * @param {string} kind
  * @param {string[][]} entries
  * @param {(term: string) => (Node | string)[]} draw

@@ -153,7 +153,7 @@ class Worth {
   }
 }
 
-/** How high a ratio stands over the slider. The root lets us see small excesses beside large ones.
+/** The height of a ratio over the slider. The root lets us see small excesses beside large ones.
  *  @param {number} ratio */
 function rise(ratio) {
   const most = 0.45;

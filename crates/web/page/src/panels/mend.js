@@ -5,7 +5,8 @@ import { engineName, kText } from "./words.js";
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {import("../../types").EngineInfo} EngineInfo */
 
-/** What takes the place of an engine that does not take the motion. @type {Record<string, string>} */
+/** The substitutes, other than A*, for engines that do not take the motion.
+ *  @type {Record<string, string>} */
 const INSTEAD = { "jps-block": "jps", "jps-plus": "jps", "subgoal-theta": "theta" };
 
 /** Engines that at centers take k = 2, and k = 3 with corners never. */

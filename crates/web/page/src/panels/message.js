@@ -3,7 +3,7 @@
 import { h, part } from "./dom.js";
 import { iconButton } from "./icons.js";
 
-/** How long a notice stays. Errors stay until they are dismissed. */
+/** The time for which a notice stays. Errors stay until they are dismissed. */
 const NOTICE_MS = 9000;
 
 /** @type {Map<string, HTMLElement>} */

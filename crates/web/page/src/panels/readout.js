@@ -58,7 +58,7 @@ function certificate(lane) {
   return typeof bound === "number" && lane?.answer?.status === "found" ? more(bound) : "–";
 }
 
-/** What this k is worth on any map, as a sentence. @param {LaneSetup} setup
+/** The bound of this k on any map, as a sentence. @param {LaneSetup} setup
  *  @param {number | null | undefined} bound */
 function worth(setup, bound) {
   if (setup.k === "any") return "N(∞): no path at any angle is shorter, on any map.";

@@ -8,7 +8,7 @@ import { dismiss, say } from "./message.js";
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 
 export class Setups {
-  /** What was wished for, and what it was mended to, by lane. @type {Map<number, [LaneSetup, LaneSetup]>} */
+  /** The setup wished for, and the mended one, by lane. @type {Map<number, [LaneSetup, LaneSetup]>} */
   #wishes = new Map();
   #model;
   #lanes;
@@ -18,7 +18,7 @@ export class Setups {
   constructor(model, lanes) {
     this.#model = model;
     this.#lanes = lanes;
-    // What was said of a setup holds until somebody else changes it.
+    // The message about a mended setup holds until somebody else changes the lanes.
     changes(model, ({ lanes }) => lanes && !this.#isMine && dismiss("mend"));
   }
 

@@ -1,4 +1,4 @@
-// What lies over the map, with its legend; and the agents.
+// The choice of the overlay, with its legend; and the agents.
 
 import { MOST_AGENTS } from "../model/setups.js";
 import { changes, eachFrame, field, h, part, select, setText } from "./dom.js";
@@ -19,10 +19,10 @@ const NAMES = {
 
 /** @type {Record<Overlay, string>} */
 const WORDS = {
-  search: "What the engine expanded, and what was still open at the end. Hub labels expand nothing.",
+  search: "The vertices that were expanded, and those still open at the end. Hub labels expand nothing.",
   distances: "The length of a shortest path from each vertex to the goal, with the active lane's motion.",
   flow: "From each vertex, the direction in which a shortest path to the goal begins.",
-  clearance: "How far the nearest obstacle is from each cell, in a straight line.",
+  clearance: "The distance of each cell to the nearest obstacle, in a straight line.",
   rules: "Where the corner rules, or open and closed gaps, allow different moves.",
   none: "",
 };

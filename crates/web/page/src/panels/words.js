@@ -17,7 +17,7 @@ export function withNames(text) {
   return named.replace(/\bk = any\b/g, "k = ∞");
 }
 
-/** How the engine works, in a sentence. @param {string} engine */
+/** The engine's method, in a sentence. @param {string} engine */
 export const engineHow = (engine) => ENGINES[engine]?.how ?? "";
 
 /** Whether hub labels answered: they expand nothing, and nothing can be replayed.
@@ -28,7 +28,7 @@ export const hasNoSearch = (lane) =>
 /** @param {number | "any"} k */
 export const kText = (k) => (k === "any" ? "∞" : String(k));
 
-/** What the engine promises, in a sentence.
+/** The engine's guarantee with this setup, in a sentence.
  *  @param {LaneSetup} setup @param {string} guarantee of the engine's table */
 export function promise(setup, guarantee) {
   if (guarantee === "suboptimal") return "Its paths may be longer than the shortest.";
@@ -38,7 +38,7 @@ export function promise(setup, guarantee) {
   return setup.k === 2 ? "No path over N(2) is shorter." : "It is optimal at k = 2 only.";
 }
 
-/** Where the vertices are and what the rule allows, in short. @param {LaneSetup} setup */
+/** The placement, the rule and the smoothing, in short. @param {LaneSetup} setup */
 export function motionText(setup) {
   const rule =
     setup.placement === "center"
@@ -60,7 +60,7 @@ export const cells = (cells) => TWO.format(cells);
 /** A ratio as percent above one. @param {number} ratio @returns {string} */
 export function over(ratio) {
   const percent = Math.max(0, (ratio - 1) * 100);
-  // A little is not nothing. What is less than rounding leaves is nothing.
+  // A small excess does not show as 0; one that rounding can leave does.
   const text = percent > 1e-7 && percent < 0.005 ? percent.toPrecision(1) : TWO.format(percent);
   return `${Number(text) === 0 ? "0" : text} %`;
 }
@@ -87,7 +87,7 @@ export function size(bytes) {
   return `${(bytes / 1e6).toPrecision(3)} MB`;
 }
 
-/** How much longer than the reference the answer is, as a ratio; undefined if it is not known.
+/** The ratio of the answer's length to that of the reference; undefined if it is not known.
  *  @param {LaneAnswer | null} answer */
 export function excess(answer) {
   if (!answer?.reference || answer.status !== "found" || answer.reference.length <= 0) return undefined;

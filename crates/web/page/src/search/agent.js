@@ -13,8 +13,8 @@ import { placesAround, rest } from "./walk.js";
  * @property {number} next - The waypoint it walks to.
  * @property {"walking" | "arrived" | "stuck"} state
  * @property {boolean} fresh - Whether it has just got another way.
- * @property {number} since - When it got it, or arrived, in ms.
- * @property {"" | "place" | "way" | "check"} needs - What is to be asked for it.
+ * @property {number} since - The time at which it got it, or arrived, in ms.
+ * @property {"" | "place" | "way" | "check"} needs - A place, a way, a check of its way, or nothing.
  * @property {number} wish - Grows with each new need.
  */
 
@@ -50,7 +50,7 @@ export function need(agent, what) {
 }
 
 /**
- * What is to be asked for an agent.
+ * The errand that meets an agent's need.
  * @param {Agent} agent
  * @param {number} offset
  * @returns {Errand}

@@ -29,7 +29,7 @@ export class Helper {
 
   /**
    * Ends the worker, and gives its memory back.
-   * @param {string} why - What is said to those who wait for something.
+   * @param {string} why - The message to those who wait for something.
    */
   stop(why) {
     this.#remote?.close(why);

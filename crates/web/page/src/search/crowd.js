@@ -11,7 +11,7 @@ import { questionOf, sliced } from "./search.js";
 
 /** Milliseconds of work between two looks at the messages. */
 const SLICE = 8;
-/** How many places are tried at random, and how far around a place we look, in cells. */
+/** The number of places tried at random, and the reach of the search around a place, in cells. */
 const TRIES = 200;
 const REACH = 3;
 
@@ -84,7 +84,8 @@ function* oneErrand(session, { path, places }, { goal, nearest, random, measured
 }
 
 /**
- * Where an agent can start, so that it arrives.
+ * A place from which an agent arrives; null if there is none. With `nearest` any free place will do, if the
+ * goal cannot be reached.
  * @param {Space} space
  * @param {number[]} places
  * @param {{ goal: Point, nearest: boolean, random: Random }} how
@@ -155,7 +156,7 @@ function placeAround([x, y], fits) {
 }
 
 /**
- * How many vertices there are in a row, and rows.
+ * The number of vertices in a row, and the number of rows.
  * @param {Space} space
  */
 function vertices(space) {

@@ -1,5 +1,5 @@
-// What a worker does not know yet of the model's map. Each worker has a copy of the map of its own, and is
-// told only the rectangle that has changed.
+// The changes of the model's map that a worker does not know yet. Each worker has a copy of the map of its
+// own, and is told only the rectangle that has changed.
 
 /** @import { Change, Model, Rect } from "../../types.js" */
 /** @import { MapNews } from "./protocol.js" */
@@ -33,7 +33,7 @@ export class Feed {
   }
 
   /**
-   * What the worker is to be told. It knows the map afterwards.
+   * Takes the news for the worker, which knows the map afterwards.
    * @returns {MapNews}
    */
   take() {

@@ -14,7 +14,7 @@ const isRos = (/** @type {NamedBytes} */ { name }) => /\.ya?ml$/i.test(name);
 
 /**
  * The map in these files.
- * @param {Pick<typeof Grid, "read" | "size">} grids - What reads them.
+ * @param {Pick<typeof Grid, "read" | "size">} grids - The reader of the package.
  * @param {NamedBytes[]} files
  * @returns {{ name: string, width: number, height: number, cells: Uint8Array }}
  */

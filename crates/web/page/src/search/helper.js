@@ -43,7 +43,7 @@ function reply(request) {
 }
 
 /**
- * What lies over the map, or null where there is nothing, as with a goal on a wall.
+ * The values of the overlay; null where there are none, as with a goal on a wall.
  * @param {Grid} grid
  * @param {OverlayWish} wish
  */

@@ -9,7 +9,7 @@ import { buffersOf, Feed } from "./feed.js";
 import { BROKEN, setupKey } from "./protocol.js";
 import { Remote } from "./remote.js";
 
-/** What is over before this (ms) is not shown as under way. */
+/** The time (ms) after which a query is shown as under way. */
 const SHOWN = 60;
 /** Searches up to this size are recorded while a gesture is under way. */
 const MOST_RECORDED = 100_000;
@@ -30,7 +30,7 @@ export const [QUICK, PAUSE] = [30, 120];
  * A query under way.
  * @typedef {object} Sent
  * @property {number} number
- * @property {number} at - When.
+ * @property {number} at - The time.
  * @property {boolean} isPreparing
  * @property {boolean} tells - Whether the engine tells how far it is: such an index is never repaired.
  */
@@ -39,15 +39,15 @@ export const [QUICK, PAUSE] = [30, 120];
  * @typedef {object} Situation
  * @property {number} now
  * @property {"" | "end" | "cells"} gesture
- * @property {number} took - What bringing the index up to date takes after an edit, in ms.
- * @property {number} pauseEnds - When the user has not drawn for a while.
+ * @property {number} took - The time to bring the index up to date after an edit, in ms.
+ * @property {number} pauseEnds - The time at which the user has not drawn for a while.
  * @property {Pick<Sent, "at" | "isPreparing"> | null} sent
  * @property {boolean} isOther - Whether more than the ends has changed since it was sent.
  */
 
 /**
- * When the next query is sent: now, at a time, or after the answer to the query under way; or the worker is
- * to be replaced, as what it does is of no use and cannot be paused. Pure, so that it can be tested.
+ * The next action: the query is sent now, at a time, or after the answer to the one under way; or the worker
+ * is replaced, as its work is of no use and cannot be paused. Pure, so that it can be tested.
  * @param {Situation} situation
  * @returns {"send" | "replace" | "await" | { until: number }}
  */
@@ -90,7 +90,7 @@ export class Lane {
   #model;
   #changed;
   #readied;
-  /** What the worker does not know yet of the map. */
+  /** The changes of the map that the worker does not know yet. */
   #feed;
   /** @type {LaneWorker} */
   #remote;
@@ -108,7 +108,7 @@ export class Lane {
   #answered = 0;
   /** Whether the last query was that of a gesture, so that something is left for its end. */
   #hurry = false;
-  /** What an edit costs, in ms: the mean of the last ones, the later the more. */
+  /** The time of an edit, in ms: a mean of the last ones, in which later ones weigh more. */
   #took = 0;
   #pauseEnds = 0;
   #memory = 0;
@@ -152,7 +152,7 @@ export class Lane {
     this.#remote = this.#start();
   }
 
-  /** @param {string} why - What is said to those who wait for something. */
+  /** @param {string} why - The message to those who wait for something. */
   #end(why) {
     this.#remote.close(why);
     this.#endWalk()?.heard(null);
@@ -185,7 +185,7 @@ export class Lane {
     if (change.map || change.cells || change.wishes) {
       this.#want(true);
     } else if (change.ends) {
-      // Where the engine has failed, it would fail again.
+      // An engine that has failed is not asked again: other ends would not help.
       this.#want(false);
     }
     if (change.cells && this.#model.gesture === "cells") {
@@ -388,7 +388,7 @@ export class Lane {
   }
 
   /**
-   * What comes after an answer goes into it; it stays the same object.
+   * Completes the answer by its time or its reference, which come later. It stays the same object.
    * @param {Extract<Heard, { type: "timing" | "reference" }>} message
    */
   #complete(message) {

@@ -28,7 +28,8 @@ export class Lanes extends EventTarget {
   #known = new Map();
   /** @type {() => void} */
   #readied = () => {};
-  /** When the first lane has something to show: until then nothing takes its time. @type {Promise<void>} */
+  /** Fulfilled when the first lane has something to show: nothing takes its time before.
+   *  @type {Promise<void>} */
   #first;
   /** @type {() => void} */
   #shown = () => {};
@@ -108,7 +109,7 @@ export class Lanes extends EventTarget {
   }
 
   /**
-   * What the helper answers, asked but once.
+   * Asks the helper once for each key, when the first lane has something to show; keeps the answer.
    * @param {string} key
    * @param {() => Promise<any>} ask
    */

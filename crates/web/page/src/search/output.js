@@ -1,4 +1,4 @@
-// What a lane's worker writes for others: its search for the Posthoc visualizer, and a picture.
+// The files of a lane's worker for other programs: its search for the Posthoc visualizer, and a picture.
 
 /** @import { Grid, Index, Space } from "../../mediant/mediant.js" */
 /** @import { Ask, Order } from "./protocol.js" */

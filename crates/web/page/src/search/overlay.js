@@ -1,5 +1,5 @@
-// What lies over the map: the clearance, the distances to the goal or the directions to it, and where the
-// agent does not fit. It is computed in a worker of its own; the latest wish wins.
+// The values of the overlay: the clearance, the distances to the goal or the directions to it, and the cells
+// where the agent does not fit. They are computed in a worker of their own; the latest wish wins.
 
 /** @import { Change, LaneSetup, Lanes, Model, Point } from "../../types.js" */
 import { Helper } from "./assistant.js";
@@ -8,7 +8,7 @@ import { motionKey } from "./protocol.js";
 
 /** A map of more cells leaves much memory behind. */
 const LARGE = 2 ** 21;
-/** What took longer than this (ms) is not computed at each stroke, but at most every so often. */
+/** An overlay that took longer than this (ms) is not computed at each stroke, but at most every so often. */
 const [QUICK, EVERY] = [25, 150];
 
 /** @param {Model} model */
@@ -35,10 +35,10 @@ export class Overlay {
   #changed;
   #helper = new Helper();
   #feed;
-  /** What is shown, and what is being computed. */
+  /** The wish whose values are shown. */
   #shown = NOTHING;
   #isBusy = false;
-  /** How many maps there have been. */
+  /** The number of maps so far: values of an earlier one are dropped. */
   #maps = 0;
   #isLarge;
   #took = 0;
@@ -72,7 +72,7 @@ export class Overlay {
   }
 
   /**
-   * What the scene asks for: each part as a text, so that equal wishes are equal texts.
+   * The wish of the scene: each part as a text, so that equal wishes are equal texts.
    * @returns {Wished}
    */
   #wish() {

@@ -1,11 +1,11 @@
-// What the page and its workers say to each other, and what both know of a setup. There is nothing here
-// that runs long: both sides import it.
+// The messages between the page and its workers, and the parts of a setup that both use. There is nothing
+// here that runs long: both sides import it.
 
 /** @import { Change, LaneAnswer, LaneSetup, LaneState, Motion, Point, Rect } from "../../types.js" */
 /** @import { EngineInfo, Options } from "../../mediant/mediant.js" */
 
 /**
- * What a worker must be told before it has the model's map: nothing, the map, or the cells of a rectangle.
+ * The news that a worker lacks of the model's map: nothing, the map, or the cells of a rectangle.
  * @typedef {object} MapNews
  * @property {{ width: number, height: number, cells: Uint8Array }} [map]
  * @property {Rect & { cells: Uint8Array }} [patch]
@@ -15,7 +15,7 @@
  * A query of a lane, with all that has changed since the last one.
  * @typedef {object} Ask
  * @property {"ask"} type
- * @property {number} number - Grows; what comes back carries it.
+ * @property {number} number - Grows; the replies carry it.
  * @property {MapNews} news
  * @property {LaneSetup} setup
  * @property {number} radius
@@ -27,7 +27,7 @@
  */
 
 /**
- * What is to be done for one agent. If its path holds, it is kept. If not, or without one, the agent gets a
+ * A task for one agent. If its path holds, it is kept. If not, or without one, the agent gets a
  * path from the first of these places that has a way to the goal; without places, from one chosen at random.
  * @typedef {object} Errand
  * @property {number} agent
@@ -46,23 +46,23 @@
  */
 
 /**
- * What became of an errand. `path` is null if there is no way; `kept` says that the old path holds.
+ * The outcome of an errand. `path` is null if there is no way; `kept` says that the old path holds.
  * @typedef {{ agent: number, kept: boolean, path: Int32Array | null }} ErrandDone
  */
 
 /**
- * What is ordered of a lane's worker, as a file.
+ * An order to a lane's worker for a file.
  * @typedef {{ type: "trace" } | { type: "picture", format: "png" | "svg", overlay: string }} Order
  */
 
 /**
- * What a lane's worker is told.
+ * A message to a lane's worker.
  * @typedef {{ type: "start", module: WebAssembly.Module } | Ask | Walk | { type: "cancel" }
  *   | { type: "refine" } | (Order & { id: number })} ToLane
  */
 
 /**
- * What a lane's worker says.
+ * A message from a lane's worker.
  * @typedef {{ type: "ready", engines: EngineInfo[] }
  *   | { type: "preparing", number: number }
  *   | { type: "progress", number: number, stage: string, done: number, total: number }
@@ -77,14 +77,13 @@
  */
 
 /**
- * What comes back for what was asked with an id: of a lane's trace and picture a file. A worker that is
- * broken answers no more.
+ * The reply to a request with an id; to an order it is a file. A worker that is broken answers no more.
  * @typedef {{ type: "result", id: number, value: unknown }
  *   | { type: "refused", id: number, message: string, broken?: boolean }} Reply
  */
 
 /**
- * What the overlays of a scene follow from.
+ * The parts of a scene on which its overlay depends.
  * @typedef {object} OverlayWish
  * @property {MapNews} news
  * @property {LaneSetup} setup
@@ -97,7 +96,7 @@
 /** @typedef {{ name: string, bytes: Uint8Array }} NamedBytes */
 
 /**
- * What the helper is asked.
+ * A request to the helper.
  * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup }
  *   | { type: "bounds", setup: LaneSetup, ks: number[] }
  *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)} Request
@@ -142,7 +141,7 @@ export function setupKey(setup) {
 }
 
 /**
- * What a `change` of the model says.
+ * The detail of a `change` event of the model.
  * @param {Event} event
  * @returns {Change}
  */
@@ -151,7 +150,7 @@ export function changeOf(event) {
 }
 
 /**
- * What an error says.
+ * The message of an error, or the text of anything else that was thrown.
  * @param {unknown} error
  */
 export function textOf(error) {
@@ -169,6 +168,6 @@ export function sentence(text) {
   return first + trimmed.slice(1) + (/[.!?]$/.test(trimmed) ? "" : ".");
 }
 
-/** What a lane says when its engine met a mistake of its own. */
+/** The message of a lane whose engine met a mistake of its own. */
 export const BROKEN =
   "The engine stopped by a mistake of its own. Take another engine, or change the scene and try again.";

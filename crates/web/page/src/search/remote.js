@@ -13,10 +13,10 @@ export class Remote {
   #worker;
   #over = false;
   #hasSpoken = false;
-  /** What was posted before the package was there; null once it is.
+  /** The messages posted before the package was there; null once it is.
    *  @type {{ message: object, transfer: Transferable[] }[] | null} */
   #unsent = [];
-  /** What came before anybody listened. @type {(() => void)[]} */
+  /** Calls to the listener from before there was one. @type {(() => void)[]} */
   #early = [];
   /** @type {{ heard: (message: Heard) => void, died: (why: string) => void } | null} */
   #listener = null;
@@ -141,7 +141,7 @@ export class Remote {
 
   /**
    * Ends the worker, whatever it does.
-   * @param {string} why - What is said to those who wait for a reply.
+   * @param {string} why - The message to those who wait for a reply.
    */
   close(why) {
     this.#over = true;

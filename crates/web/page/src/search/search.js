@@ -20,14 +20,14 @@ const MOST_STEPS = 8_000_000;
 const MOST_AGAIN = 3000;
 /** A search that took less (ms) is repeated for its time. */
 const SHORT = 5;
-/** What may be done beside a gesture, in ms. */
+/** The most work beside a gesture, in ms. */
 const LITTLE = 20;
 
 /**
  * Runs a search to its end. Returns the answer, and the milliseconds of the search alone.
  * @param {Planner} planner
  * @param {Question} question
- * @param {{ pace: number }} measured - How fast the last search went; written, too.
+ * @param {{ pace: number }} measured - The pace of the last search; written, too.
  * @param {Trace} [trace]
  * @param {() => void} [between] - Called after each slice.
  * @returns {Generator<void, { answer: Answer, ms: number }>}
@@ -163,7 +163,7 @@ function emptyAnswer(session, { start, goal, setup }) {
 }
 
 /**
- * What the library said against the query. Anything else is not for the user: it is thrown on.
+ * The library's error against the query. Any other error is not for the user: it is thrown on.
  * @param {unknown} error
  * @param {Ask} ask
  */
@@ -250,7 +250,7 @@ function* warmed(session, ask, first) {
 }
 
 /**
- * What follows an answer: its time without a recording, and the true optimum.
+ * Completes an answer: tells its time without a recording, and the true optimum.
  * @param {Session} session
  * @param {Ask} ask
  * @param {LaneAnswer} answer

@@ -1,4 +1,4 @@
-// What a lane's worker holds: the map, the map for the agent, the space with its motion, the engine's
+// The state of a lane's worker: the map, the map for the agent, the space with its motion, the engine's
 // index and its planners. It is brought up to date before each query. Objects of the package that are
 // replaced are freed.
 
@@ -32,7 +32,7 @@ export class Session {
   planner = null;
   /** A planner for the agents, who walk while a search is under way. @type {Planner | null} */
   #walker = null;
-  /** What finds the optimum. @type {Planner | null} */
+  /** The planner for the optimum. @type {Planner | null} */
   #judge = null;
   /** Whether the last index came from the one of the map before. */
   wasEdit = false;
@@ -182,7 +182,7 @@ export class Session {
   }
 
   /**
-   * What finds the optimum: at any angle at corners, over N(k) at centers.
+   * The planner for the optimum: at any angle at corners, over N(k) at centers.
    * @param {Ask} ask
    * @returns {Planner}
    */

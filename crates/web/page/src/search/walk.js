@@ -1,5 +1,5 @@
-// How an agent walks along its path: where it is after a step, which part of the path is still before it,
-// and from which vertices it could go another way. Pure: no worker, no clock.
+// The walk of an agent along its path: its place after a step, the part of the path still before it, and the
+// vertices from which it could go another way. Pure: no worker, no clock.
 
 /** @import { Rect } from "../../types.js" */
 /** @import { Agent } from "./agent.js" */
@@ -10,7 +10,7 @@ export const offsetOf = (placement) => (placement === "center" ? 0.5 : 0);
 /**
  * Walks on. Returns whether the agent has arrived.
  * @param {Agent} agent
- * @param {number} cells - How far.
+ * @param {number} cells - The distance.
  * @param {number} offset
  */
 export function advance(agent, cells, offset) {

@@ -10,9 +10,9 @@ import { errandOf, mayWalk, need, newAgent, take } from "./agent.js";
 import { changeOf, motionKey, setupKey } from "./protocol.js";
 import { advance, meets, offsetOf } from "./walk.js";
 
-/** How long an agent that has got another way is marked, and how long it stays at the goal, in ms. */
+/** The time for which another way is marked, and the stay of an agent at the goal, in ms. */
 const [FRESH, REST] = [700, 1000];
-/** How long we wait for another worker, in ms. */
+/** The wait for another worker, in ms. */
 const AGAIN = 200;
 /** Walking is no faster than this after a pause of the page, in ms. */
 const LONGEST_FRAME = 100;
@@ -23,7 +23,7 @@ const LONGEST_FRAME = 100;
  * @property {Lanes["activeLane"]} lane
  * @property {string} motion - Of the paths.
  * @property {number} offset
- * @property {Map<number, number>} wishes - Of each agent, when it was asked.
+ * @property {Map<number, number>} wishes - The `wish` of each agent that is asked.
  * @property {boolean} isEdit - Whether cells have changed.
  * @property {number} successes
  */

@@ -48,7 +48,7 @@ function statusOf({ phase, progress, expanded, answer, message }) {
   return "";
 }
 
-/** What the pane says in a sentence, if anything is wrong. @param {LaneState} state */
+/** The pane's message if anything is wrong, as a sentence; empty if nothing is. @param {LaneState} state */
 export function sentenceOf({ phase, answer, message }) {
   if (phase === "failed" || phase === "cancelled") return withNames(message);
   if (phase !== "done" || !answer) return "";

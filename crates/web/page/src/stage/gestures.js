@@ -1,4 +1,4 @@
-// What a drag does: moves the map, drags an end, draws a stroke or a rectangle; and the fill of an area.
+// The gestures: a drag moves the map or an end, or draws a stroke or a rectangle; and the fill of an area.
 
 import { View } from "./view.js";
 

@@ -162,7 +162,7 @@ export class SearchHeat {
 }
 
 /** Whether most expanded vertices stand alone, as those of jump point search and of prepared engines do.
- *  What was so stays so in doubt: the picture does not flicker while an end is dragged. @param {Uint32Array}
+ *  In doubt it stays as before: the picture does not flicker while an end is dragged. @param {Uint32Array}
  *  steps @param {number} columns @param {boolean} before */
 function isSparse(steps, columns, before) {
   const ends = expansionEnds(steps);

@@ -8,7 +8,7 @@
 const FLASH = 600;
 
 export class Agents {
-  /** When each agent that is fresh became so. @type {WeakMap<Agent, number>} */
+  /** The time at which each fresh agent became so. @type {WeakMap<Agent, number>} */
   #since = new WeakMap();
   #isStill = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -46,7 +46,7 @@ export class Agents {
     return isFlashing;
   }
 
-  /** When the agent's flash began. @param {Agent} agent @param {number} now */
+  /** The beginning of the agent's flash; -Infinity without one. @param {Agent} agent @param {number} now */
   #flashOf(agent, now) {
     if (!agent.fresh) {
       this.#since.delete(agent);
@@ -108,7 +108,7 @@ function drawAgent(context, [x, y], radius, state, heading, theme, dpr) {
   context.globalAlpha = 1;
 }
 
-/** Where in its path the waypoint stands that the agent comes to next: the end of the segment nearest to it.
+/** The index in the path of the agent's next waypoint: the end of the segment nearest to the agent.
  *  @param {Agent} agent @param {number} shift */
 function nextWaypoint({ x: px, y: py, path }, shift) {
   const [x, y] = [px - shift, py - shift];

@@ -21,7 +21,7 @@ function stepOf({ greatest }) {
   return unit * ([1, 2, 5].find((factor) => factor * unit >= least * (1 - 1e-9)) ?? 10);
 }
 
-/** How far the raster of a field is from the cells. @param {Field} field */
+/** The shift of a field's raster against the cells. @param {Field} field */
 function shiftOf(field) {
   return field.kind !== "clearance" && field.placement === "corner" ? -0.5 : 0;
 }

@@ -1,4 +1,4 @@
-// What moves above the map: the path, start and goal, agents, the brush and the cell of the keyboard.
+// The moving marks above the map: the path and the optimum, start and goal, the brush, the keyboard's cell.
 
 import { DASHES } from "./colors.js";
 

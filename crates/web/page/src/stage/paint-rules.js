@@ -1,6 +1,6 @@
-// Where the rules of motion differ. At centers: diagonal steps past the corner of one wall, or between two.
-// At corners: gaps, the vertices where two blocked cells touch diagonally. A short line goes where a step
-// can pass; a cross stands where none can.
+// The places where the rules of motion differ. At centers: diagonal steps past the corner of one wall, or
+// between two. At corners: gaps, the vertices where two blocked cells touch diagonally. A short line goes
+// where a step can pass; a cross stands where none can.
 
 import { Raster } from "./raster.js";
 
@@ -9,8 +9,7 @@ import { Raster } from "./raster.js";
 /** @typedef {import("./view.js").Frame} Frame */
 /** @typedef {import("./colors.js").Theme} Theme */
 
-/** What is at a lattice point: the diagonal of its free cells, and whether the other two are both blocked.
- *  */
+/** The bits of a lattice point: the diagonal of its free cells; whether both others are blocked. */
 const FALLING = 1;
 const RISING = 2;
 const TWO = 4;
@@ -19,7 +18,7 @@ const TWO = 4;
 const LEAST_WITH_GLYPHS = 6;
 
 export class Rules {
-  /** What is at each lattice point, (W + 1) × (H + 1) of them. */
+  /** The bits of each lattice point, (W + 1) × (H + 1) of them. */
   #places = new Uint8Array(0);
   #raster = new Raster(1, 1);
   #key = "";

@@ -69,7 +69,7 @@ export class Pane {
     return this.stage.model.active === this.lane;
   }
 
-  /** Where this place of the map is in the pane, in pixels of the page. @param {number} x @param {number} y
+  /** The spot in the pane of a place of the map, in pixels of the page. @param {number} x @param {number} y
    *  */
   spotOf(x, y) {
     const { left, top, scale, dpr } = this.frame;

@@ -1,4 +1,4 @@
-// How much of each lane's search is shown: all lanes expand at the same pace, or as fast as they were.
+// The playback of the searches: all lanes expand at the same pace, or as fast as they were.
 
 /** @typedef {import("../../types.d.ts").Player} Contract */
 /** @typedef {import("../../types.d.ts").Lanes} Lanes */
@@ -7,8 +7,8 @@
 /** @type {WeakMap<Uint32Array, Uint32Array>} */
 const known = new WeakMap();
 
-/** How many steps have been made when the n-th expansion is complete, for n = 1, 2, …: with the vertices
- *  that it generated. @param {Uint32Array} steps @returns {Uint32Array} */
+/** The number of steps up to the end of the n-th expansion, for n = 1, 2, …: with the vertices that it
+ *  generated. @param {Uint32Array} steps @returns {Uint32Array} */
 export function expansionEnds(steps) {
   const found = known.get(steps);
   if (found) return found;
@@ -42,7 +42,7 @@ export class Player extends EventTarget {
   #speed = 0;
   #position = 0;
   #isPlaying = false;
-  /** When the last tick was. */
+  /** The time of the last tick. */
   #last = 0;
   /** The paths and steps that were seen last. @type {unknown[]} */
   #seen = [];
@@ -150,7 +150,7 @@ export class Player extends EventTarget {
     return done === Infinity || (this.#mode === "pace" && done >= expansions(answer));
   }
 
-  /** How many expansions of the lane are shown. @param {number} lane */
+  /** The number of the lane's expansions that are shown; Infinity for all. @param {number} lane */
   #done(lane) {
     const answer = this.#lanes.list[lane]?.answer;
     if (!answer) return 0;

@@ -1,4 +1,4 @@
-// How long the page works in each frame of a drag, and how long a path takes from the pointer to the screen.
+// The times of a drag: the page's work in each frame, and the way of a path from the pointer to the screen.
 
 /** @typedef {import("../../types.d.ts").Model} Model */
 /** @typedef {import("../../types.d.ts").LaneState} LaneState */

@@ -104,7 +104,7 @@ export class Stage extends EventTarget {
     this.moved();
   }
 
-  /** Where a place of the map, in cells, is on the page: for tests and hints. @param {number} lane
+  /** The pixels in the window of a place of the map, in cells: for tests and hints. @param {number} lane
    *  @param {number} x @param {number} y */
   place(lane, x, y) {
     const pane = this.panes[lane];

@@ -7,7 +7,7 @@ import { boxing, brushAt, cellAt, dragging, fill, inMap, panning, stroking } fro
 /** @typedef {import("./gestures.js").Gesture} Gesture */
 /** @typedef {import("./gestures.js").Spot} Spot */
 
-/** How far from the center of an end the pointer takes it, in pixels of the page. */
+/** The distance from the center of an end within which a press takes it, in pixels of the page. */
 const REACH = { mouse: 14, pen: 16, touch: 24 };
 /** A finger that has not moved so far may still become one of two that zoom. */
 const SLACK = 6;
@@ -16,7 +16,7 @@ const HOLD = 140;
 export class PointerTools {
   /** @type {Gesture | null} */
   #gesture = null;
-  /** What a finger will do if no other finger follows. @type {(() => Gesture) | null} */
+  /** The gesture of a finger if no other finger follows. @type {(() => Gesture) | null} */
   #waiting = null;
   #timer = 0;
   /** The fingers, or the mouse button. @type {Map<number, Spot>} */
@@ -93,7 +93,7 @@ export class PointerTools {
     this.#timer = window.setTimeout(() => this.#start(), HOLD);
   }
 
-  /** What a press here begins. @param {Pane} pane @param {PointerEvent} event @param {Spot} spot
+  /** The gesture that a press here begins. @param {Pane} pane @param {PointerEvent} event @param {Spot} spot
    *  @returns {() => Gesture} */
   #choose(pane, event, spot) {
     const { stage } = this;
@@ -172,7 +172,7 @@ export class PointerTools {
     if (event.pointerType === "touch" && this.#pane) this.#hover(this.#pane, null);
   }
 
-  /** What a press here would take or draw. @param {Pane} pane @param {PointerEvent | null} event */
+  /** Shows what a press here would take or draw. @param {Pane} pane @param {PointerEvent | null} event */
   #hover(pane, event) {
     const { stage } = this;
     if (this.#gesture && event && this.#down.size === 0) return;

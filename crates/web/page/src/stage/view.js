@@ -1,7 +1,7 @@
-// What part of the map the panes show: one center and one scale for all panes, so that they move together.
+// The view of the map: one center and one scale for all panes, so that they move together.
 
 /**
- * Where the map lies in a pane, in device pixels.
+ * The position and the scale of the map in a pane, in device pixels.
  * @typedef {object} Frame
  * @property {number} left
  * @property {number} top
@@ -88,7 +88,7 @@ export class View {
     [this.x, this.y, this.isFitted] = [nextX, nextY, false];
   }
 
-  /** Where the map lies in a pane of this size. @param {number} width @param {number} height @returns
+  /** The frame of the map in a pane of this size. @param {number} width @param {number} height @returns
    *  {Frame} */
   frame(width, height) {
     const { dpr } = this;

@@ -2,7 +2,7 @@
 
 import { root } from "./random.js";
 
-/** How many units of the shapes' coordinates a cell has. */
+/** The side of a cell in the units of the shapes' coordinates. */
 export const UNIT = 8;
 
 /** The places with a·x + b·y ≥ c, in units.

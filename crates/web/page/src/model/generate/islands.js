@@ -1,4 +1,4 @@
-// Islands: the sea between coast lines. Where the landscape is high is land, which is blocked.
+// Islands: the sea between coast lines. High ground is land, which is blocked.
 
 import { keepLargestPart } from "../ends.js";
 import { heights, levelOf } from "./heights.js";
