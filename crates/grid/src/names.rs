@@ -41,10 +41,10 @@ pub fn means(text: &str, name: &str) -> bool {
 #[macro_export]
 #[doc(hidden)]
 macro_rules! names {
-    ($type:ident: $($variant:ident => $name:literal $(| $other:literal)*),+ $(,)?) => {
+    ($type:ident: $($(#[$attribute:meta])* $variant:ident => $name:literal $(| $other:literal)*),+ $(,)?) => {
         impl $type {
             /// All values.
-            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+            pub const ALL: [Self; [$($(#[$attribute])* $name),+].len()] = [$($(#[$attribute])* Self::$variant),+];
 
             /// All values, one after the other.
             pub fn all() -> impl Iterator<Item = Self> {
@@ -54,7 +54,7 @@ macro_rules! names {
             /// The name, as people and scripts write it.
             #[must_use]
             pub const fn name(self) -> &'static str {
-                match self { $(Self::$variant => $name),+ }
+                match self { $($(#[$attribute])* Self::$variant => $name),+ }
             }
         }
 
@@ -70,8 +70,11 @@ macro_rules! names {
             fn from_str(text: &str) -> Result<Self, $crate::names::UnknownName> {
                 let means = $crate::names::means;
                 $(
-                    if means(text, $name) $(|| means(text, $other))* {
-                        return Ok(Self::$variant);
+                    $(#[$attribute])*
+                    {
+                        if means(text, $name) $(|| means(text, $other))* {
+                            return Ok(Self::$variant);
+                        }
                     }
                 )+
                 let known = Self::ALL.map(Self::name).join(", ");

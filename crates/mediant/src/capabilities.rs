@@ -6,7 +6,9 @@ use mediant_moves::K;
 use mediant_search::JumpTable;
 use mediant_subgoal::SubgoalGraph;
 
-use crate::{engine::Engine, option::Variant, setup_error::SetupError};
+#[cfg(feature = "publications")]
+use crate::option::Variant;
+use crate::{engine::Engine, setup_error::SetupError};
 
 /// The capabilities of an engine, whatever its options.
 ///
@@ -42,8 +44,10 @@ pub struct Capabilities {
     pub few_k_at_centers: bool,
     /// Whether it takes a heuristic that overestimates. Its paths may then be longer; nothing else goes
     /// wrong.
+    #[cfg(feature = "publications")]
     pub overestimates: bool,
     /// Its variants, the default first; empty for an engine that has only one.
+    #[cfg(feature = "publications")]
     pub variants: &'static [Variant],
     /// Whether it finds the distances from one vertex to all others.
     pub distances: bool,
@@ -102,7 +106,9 @@ const SEARCH: Capabilities = Capabilities {
     papers: "",
     any_angle: false,
     few_k_at_centers: false,
+    #[cfg(feature = "publications")]
     overestimates: false,
+    #[cfg(feature = "publications")]
     variants: &[],
     distances: false,
     index: None,
@@ -136,6 +142,7 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         how: "Expands the vertex with the least cost so far plus distance over N(k) to the goal.",
         paper: "Hart 1968, Rivera 2017",
         papers: "Hart, Nilsson & Raphael 1968; Rivera, Hernández & Baier 2017",
+        #[cfg(feature = "publications")]
         overestimates: true,
         ..SEARCH
     },
@@ -161,9 +168,9 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
     Capabilities {
         title: "Canonical A*",
         how: "A* that follows one of the paths that differ only in the order of their moves.",
-        promise: "optimal over N(k) (variant paper: none)",
         paper: "Rivera 2017",
         papers: "Rivera, Hernández & Baier 2017",
+        #[cfg(feature = "publications")]
         variants: &[Variant::Exact, Variant::Paper],
         ..SEARCH
     },
@@ -251,10 +258,12 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
     Capabilities {
         title: "CHPA*",
         how: "Plans checkpoints over prepared segments of the map, then searches from one to the next.",
-        promise: "none; 1 to 31 % above the optimum by the set (variant paper: may find no path)",
+        promise: "none; 1 to 31 % above the optimum by the set",
         paper: "Teleiša 2023",
         papers: "Teleiša & Čalnerytė 2023",
+        #[cfg(feature = "publications")]
         overestimates: true,
+        #[cfg(feature = "publications")]
         variants: &[Variant::Complete, Variant::Paper],
         index: Some(SegmentGraph::VERSION),
         ..HIERARCHY

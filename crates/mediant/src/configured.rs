@@ -4,6 +4,8 @@
 
 use std::num::NonZeroU32;
 
+#[cfg(feature = "publications")]
+use crate::option::published::{DETOUR, SECOND, STEP, VARIANT, Variant};
 use crate::{
     engine::Engine,
     engines::{
@@ -11,8 +13,8 @@ use crate::{
         SubgoalOptions, SubgoalThetaOptions,
     },
     option::{
-        EngineOption, HeuristicName, Levels, OptionValue, Variant,
-        description::{DETOUR, HEURISTIC, LEVELS, SECOND, SIDE, STEP, VARIANT},
+        EngineOption, HeuristicName, Levels, OptionValue,
+        description::{HEURISTIC, LEVELS, SIDE},
         slot::{Options, Slot},
     },
     setup_error::SetupError,
@@ -22,10 +24,10 @@ use crate::{
 ///
 /// ```
 /// use std::num::NonZeroU32;
-/// use mediant::{Engine, options::{ConfiguredEngine, JumpOptions}};
+/// use mediant::{Engine, options::{ConfiguredEngine, HpaOptions}};
 ///
-/// let engine = ConfiguredEngine::Jps(JumpOptions { jump_limit: NonZeroU32::new(16), ..JumpOptions::default()
-/// }); assert_eq!(engine.kind(), Engine::Jps);
+/// let large = HpaOptions { side: NonZeroU32::new(16), ..HpaOptions::default() };
+/// assert_eq!(ConfiguredEngine::Hpa(large).kind(), Engine::Hpa);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each variant is documented as an `Engine`")]
@@ -160,14 +162,20 @@ impl ConfiguredEngine {
 
     /// Checks that the engine takes the chosen values, and that they fit together.
     pub(crate) fn check(mut self) -> Result<(), SetupError> {
-        let (kind, chosen) = (self.kind(), self.chosen());
-        let refused = |option: &EngineOption, what, takes: &dyn Fn(Engine) -> bool| {
-            Err(SetupError::Option { engine: kind, option: what, others: names_of_takers(option, takes) })
-        };
-        for &(option, value) in &chosen {
+        #[cfg(feature = "publications")]
+        self.check_published()?;
+        let kind = self.kind();
+        self.own().map_or(Ok(()), |own| own.check(kind))
+    }
+
+    /// Checks heuristics that overestimate, and variants.
+    #[cfg(feature = "publications")]
+    fn check_published(self) -> Result<(), SetupError> {
+        let kind = self.kind();
+        for (option, value) in self.chosen() {
             match value {
-                OptionValue::Heuristic(HeuristicName::SquaredEuclidean)
-                    if !kind.capabilities().overestimates =>
+                OptionValue::Heuristic(name)
+                    if name.overestimates() && !kind.capabilities().overestimates =>
                 {
                     return Err(SetupError::overestimates(kind));
                 }
@@ -178,12 +186,13 @@ impl ConfiguredEngine {
                         Variant::Complete => "variant complete",
                         Variant::Paper => "variant paper",
                     };
-                    return refused(option, what, &takes);
+                    let others = names_of_takers(option, takes);
+                    return Err(SetupError::Option { engine: kind, option: what, others });
                 }
                 _ => {}
             }
         }
-        self.own().map_or(Ok(()), |own| own.check(kind))
+        Ok(())
     }
 
     /// The heuristic that guides the search, also where the engine leaves no choice: zero for Dijkstra and
@@ -197,6 +206,7 @@ impl ConfiguredEngine {
     }
 
     /// The variant; `None` for an engine that has only one.
+    #[cfg(feature = "publications")]
     #[must_use]
     pub fn variant(self) -> Option<Variant> {
         self.own_value(&VARIANT)?.variant()
@@ -216,18 +226,21 @@ impl ConfiguredEngine {
     }
 
     /// The heuristic of the second phase; `None` for an engine that has only one phase.
+    #[cfg(feature = "publications")]
     #[must_use]
     pub fn second(self) -> Option<HeuristicName> {
         self.own_value(&SECOND)?.heuristic()
     }
 
     /// There is a checkpoint every so many segments; `None` for an engine without checkpoints.
+    #[cfg(feature = "publications")]
     #[must_use]
     pub fn step(self) -> Option<NonZeroU32> {
         self.own_value(&STEP)?.number()
     }
 
     /// How many times h_k the path to a checkpoint may cost; `None` for an engine without such a limit.
+    #[cfg(feature = "publications")]
     #[must_use]
     pub fn detour(self) -> Option<NonZeroU32> {
         self.own_value(&DETOUR)?.number()

@@ -25,11 +25,16 @@ impl Admissible {
     ///
     /// # Errors
     /// [`SetupError::Option`] for one that overestimates.
+    #[cfg_attr(
+        not(feature = "publications"),
+        expect(clippy::unnecessary_wraps, unused_variables, reason = "no heuristic overestimates")
+    )]
     pub(crate) fn new(engine: Engine, name: Option<HeuristicName>) -> Result<Self, SetupError> {
         match name.unwrap_or_default() {
             HeuristicName::Hk => Ok(Self::Hk),
             HeuristicName::Euclidean => Ok(Self::Euclidean),
             HeuristicName::Zero => Ok(Self::Zero),
+            #[cfg(feature = "publications")]
             HeuristicName::SquaredEuclidean => Err(SetupError::overestimates(engine)),
         }
     }

@@ -111,6 +111,7 @@
 //!
 //! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
 //! - `png`, on by default: maps that are PNG pictures.
+//! - `publications`: options that only reproduce publications.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
 //! - `serde`: vertices, rectangles, motion, queries, paths and setups are read and written.
 //! - `trace`: searches are written for the Posthoc visualizer, by `Tracer`.

@@ -1,5 +1,7 @@
 //! Engines with their options, and the table of engines.
 
+#[cfg(feature = "publications")]
+pub use crate::option::Variant;
 pub use crate::{
     capabilities::{Capabilities, Promise},
     configured::ConfiguredEngine,
@@ -10,6 +12,5 @@ pub use crate::{
     },
     option::{
         EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,
-        Variant,
     },
 };

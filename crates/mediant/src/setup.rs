@@ -4,12 +4,14 @@ use mediant_grid::{CornerRule, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 use mediant_search::{Guarantee, Smoothing};
 
+#[cfg(feature = "publications")]
+use crate::option::Variant;
 use crate::{
     capabilities::{Capabilities, Promise},
     configured::ConfiguredEngine,
     engine::Engine,
     motion::Motion,
-    option::{HeuristicName, Variant},
+    option::{HeuristicName, if_published},
     setup_error::SetupError,
 };
 
@@ -114,8 +116,10 @@ impl Setup {
     pub fn guarantee(&self) -> Guarantee {
         let unsmoothed = match (self.capabilities().guarantee, self.k()) {
             (Promise::Suboptimal, _) => Guarantee::Suboptimal,
-            _ if self.engine.heuristic() == Some(HeuristicName::SquaredEuclidean) => Guarantee::Suboptimal,
-            _ if self.engine.variant() == Some(Variant::Paper) => Guarantee::Suboptimal,
+            _ if self.engine.heuristic().is_some_and(HeuristicName::overestimates) => Guarantee::Suboptimal,
+            _ if if_published!(self.engine.variant() == Some(Variant::Paper), else false) => {
+                Guarantee::Suboptimal
+            }
             (Promise::FewestMoves, k) if k != K::N4 => Guarantee::Suboptimal,
             (Promise::Optimal | Promise::FewestMoves, K::Any) => Guarantee::OptimalAnyAngle,
             (Promise::Optimal | Promise::FewestMoves, K::Finite(k)) => Guarantee::Optimal(k),

@@ -134,6 +134,7 @@ impl SetupError {
         Self::Without { engine, what: "index", others }
     }
 
+    #[cfg(feature = "publications")]
     /// The error for a heuristic that overestimates, and an engine that takes none.
     pub(crate) fn overestimates(engine: Engine) -> Self {
         let others = Engine::names_where(|kind| kind.capabilities().overestimates);

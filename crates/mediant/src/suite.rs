@@ -53,8 +53,9 @@ fn samples(kind: Engine) -> Vec<ConfiguredEngine> {
     }
     if kind == Engine::Hpa {
         // Small clusters, so that small maps have several on each level.
-        let (side, levels) = (NonZeroU32::new(3), NonZeroU32::new(3).map(Levels::Number));
-        engines.push(ConfiguredEngine::Hpa(HpaOptions { side, levels, ..HpaOptions::default() }));
+        let mut own = HpaOptions::default();
+        (own.side, own.levels) = (NonZeroU32::new(3), NonZeroU32::new(3).map(Levels::Number));
+        engines.push(ConfiguredEngine::Hpa(own));
     }
     engines
 }

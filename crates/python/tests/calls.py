@@ -95,17 +95,7 @@ def all_calls():
 
 
 # The engine that takes an option.
-TAKERS = {
-    "jump_limit": "jps",
-    "keep_intermediate": "jps",
-    "levels": "subgoal",
-    "memory": "subgoal",
-    "side": "hpa",
-    "variant": "canonical",
-}
-TAKERS.update(
-    {"unstraightened": "hpa", "second": "chpa", "step": "chpa", "detour": "chpa", "heuristic": "astar"}
-)
+TAKERS = {"heuristic": "astar", "levels": "subgoal", "memory": "subgoal", "side": "hpa"}
 
 
 class Things:

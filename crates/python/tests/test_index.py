@@ -17,7 +17,7 @@ import slow
 SETUPS = [
     ("astar", {"k": 4}),
     ("canonical", {"k": 3, "placement": "corner", "gap": "closed"}),
-    ("jps", {"k": 2, "jump_limit": 4}),
+    ("jps", {"k": 2, "heuristic": "euclidean"}),
     ("jps-plus", {"k": 3, "corners": "one"}),
     ("anya", {}),
     ("anya", {"k": 5, "gap": "closed"}),

@@ -25,7 +25,6 @@ COUNT = int(os.environ.get("MEDIANT_CALLS", "10000"))
 SYNONYMS = {
     "rows": ["a map of"],
     "side": ["clusters"],
-    "keep_intermediate": ["intermediate"],
     "gap": ["k = "],
     "corners": ["k = "],
 }

@@ -14,7 +14,7 @@ export type Point = readonly [x: number, y: number];
 export type Points = Point | readonly Point[] | Int32Array;
 
 // described: calls
-/** How an agent moves. */
+/** The motion of an agent. */
 export interface Motion {
   /**
    * The neighborhood, of 2^k moves: k = 3 has 8, k = 8 has 256. From 2 to 12, or any, which is every
@@ -40,7 +40,7 @@ export interface Motion {
   readonly gap?: "open" | "closed";
 }
 
-/** What a query asks beyond a path. */
+/** Wishes beyond the ends of a path. */
 export interface Wishes {
   /** If there is no path, the path to the reachable vertex that is nearest to the goal. */
   readonly nearest?: boolean;
@@ -62,19 +62,10 @@ export interface Wishes {
 /** The options of engines; `engines()` says which engine takes which. */
 export interface Options {
   /**
-   * The heuristic of the search: the cost on an empty grid (the default), the straight-line distance, zero,
-   * or the distance squared, which overestimates.
+   * The heuristic of the search: hk, the cost on an empty grid (the default), euclidean, the straight-line
+   * distance, or zero.
    */
-  readonly heuristic?: "hk" | "euclidean" | "zero" | "squared";
-  /**
-   * For an engine that was published with a flaw: the repaired variant (the default; exact for canonical,
-   * complete for chpa), or paper, the published one.
-   */
-  readonly variant?: "exact" | "complete" | "paper";
-  /** Limit each jump to N steps. */
-  readonly jumpLimit?: number;
-  /** Keep intermediate jump points, at which a path only turns on its way to another jump point. */
-  readonly keepIntermediate?: boolean;
+  readonly heuristic?: "hk" | "euclidean" | "zero";
   /**
    * The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the clusters, or
    * all; for subgoal also labels (hub labels) or contracted (a contraction hierarchy). By default hub labels
@@ -92,19 +83,6 @@ export interface Options {
    * chpa; with --index, those of the index.
    */
   readonly side?: number;
-  /** Leave out the straightening of hpa, which shortens each path after the search. */
-  readonly unstraightened?: boolean;
-  /**
-   * The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by default.
-   */
-  readonly second?: "hk" | "euclidean" | "zero" | "squared";
-  /** Plan a checkpoint every N segments. 2 by default. */
-  readonly step?: number;
-  /**
-   * Skip a checkpoint to which the path costs more than N times what it would cost on an empty grid. 3 by
-   * default.
-   */
-  readonly detour?: number;
   /**
    * Shortens paths after the search, by straight segments at any angle: linear looks for the next vertex in
    * sight along the path, taut pulls the path tight around the corners.
@@ -127,7 +105,7 @@ export type Limit = "cost" | "expansions" | "timeout" | "cancelled";
 /** The stages of a preparation that reports progress. */
 export type Stage = "edges" | "hierarchy" | "sight" | "labels";
 
-/** How an index came about. */
+/** The ways in which an index came about. */
 export type Origin = "prepared" | "loaded" | "repaired" | "unchanged";
 // described: end
 

@@ -328,8 +328,8 @@ fn what_needs_no_map() {
     assert!(bound.is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
     let engines = Array::from(&mediant_web::engines());
     assert_eq!(engines.length(), 14);
-    let jps = engines.iter().find(|engine| get(engine, "name") == "jps").expect("jps");
-    assert_eq!(Array::from(&get(&jps, "options")).join(","), "heuristic,jumpLimit,keepIntermediate,smooth");
+    let theta = engines.iter().find(|engine| get(engine, "name") == "theta").expect("theta");
+    assert_eq!(Array::from(&get(&theta, "options")).join(","), "heuristic,smooth");
     let check = |engine: &str, motion: &str| {
         mediant_web::check_setup(&engine.into(), &json(motion), &NONE).map_err(|error| text(&error))
     };

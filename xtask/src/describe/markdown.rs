@@ -34,16 +34,24 @@ pub(super) fn parameters(description: &Description) -> String {
     for parameter in &description.parameters {
         let Parameter { name, default, help, .. } = parameter;
         let default = default.as_deref().map_or(String::new(), |default| format!("`{default}`"));
-        let (snake, camel, takes) = (parameter.snake(), parameter.camel(), takes(parameter));
+        let packages = match parameter.published {
+            true => "– | –".to_owned(),
+            false => format!("`{}` | `{}`", parameter.snake(), parameter.camel()),
+        };
+        let takes = takes(parameter);
         // A bar would end the cell.
         let help = help.replace('|', "\\|");
-        _ = writeln!(text, "| `--{name}` | `{snake}` | `{camel}` | {takes} | {default} | {help} |");
+        _ = writeln!(text, "| `--{name}` | {packages} | {takes} | {default} | {help} |");
     }
     text
 }
 
 fn takes(parameter: &Parameter) -> String {
-    let names = || parameter.names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let name = |name: &String| match !parameter.published && parameter.published_names.contains(name) {
+        true => format!("`{name}` (the program alone)"),
+        false => format!("`{name}`"),
+    };
+    let names = || parameter.names.iter().map(name).collect::<Vec<_>>().join(", ");
     match (&*parameter.kind, parameter.unit.as_deref()) {
         ("flag", _) => "true or false".to_owned(),
         ("integer or name", _) => format!("an integer, or {}", names()),

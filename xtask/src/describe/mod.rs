@@ -19,7 +19,7 @@ use crate::{Error, tidy::Tree};
 pub const FILE: &str = "docs/description.json";
 
 /// The library's description of itself.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 pub struct Description {
     parameters: Vec<Parameter>,
     engines: Vec<Engine>,
@@ -30,7 +30,7 @@ pub struct Description {
 }
 
 /// A parameter of calls: `mediant::call::Parameter`.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 struct Parameter {
     name: String,
     group: String,
@@ -38,11 +38,15 @@ struct Parameter {
     unit: Option<String>,
     default: Option<String>,
     names: Vec<String>,
+    /// Whether it is there only with the feature `publications`, which the program has.
+    published: bool,
+    /// The names among its values that are there only with that feature.
+    published_names: Vec<String>,
     help: String,
 }
 
 /// A row of the table of engines.
-#[derive(Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize)]
 struct Engine {
     name: String,
     title: String,
@@ -59,6 +63,16 @@ struct Engine {
 }
 
 impl Description {
+    /// The description of the library without the feature `publications`, as Python and JavaScript have it.
+    fn without_publications(&self) -> Self {
+        let mut own = self.clone();
+        own.parameters.retain(|parameter| !parameter.published);
+        for parameter in &mut own.parameters {
+            parameter.names.retain(|name| !parameter.published_names.contains(name));
+        }
+        own
+    }
+
     /// The parameters of a group.
     fn of<'d>(&'d self, group: &'d str) -> impl Iterator<Item = &'d Parameter> {
         self.parameters.iter().filter(move |parameter| parameter.group == group)
@@ -89,10 +103,11 @@ struct Region {
 /// All regions.
 fn regions(description: &Description) -> Vec<Region> {
     let region = |file, name, text| Region { file, name, text };
+    let packages = &description.without_publications();
     vec![
-        region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(description)),
-        region("crates/web/src/types.rs", "calls", typescript::interfaces(description)),
-        region("crates/web/page/src/model/described.js", "page", typescript::page(description)),
+        region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(packages)),
+        region("crates/web/src/types.rs", "calls", typescript::interfaces(packages)),
+        region("crates/web/page/src/model/described.js", "page", typescript::page(packages)),
         region("README.md", "engines", markdown::engines(description)),
         region("docs/calls.md", "parameters", markdown::parameters(description)),
     ]
@@ -118,7 +133,8 @@ pub fn outdated(tree: &Tree) -> Result<Vec<(PathBuf, String)>, String> {
         let bytes = tree.bytes(file.as_ref()).ok_or_else(|| format!("there is no {file}"))?;
         std::str::from_utf8(bytes).map_err(|_| format!("{file} is no text"))
     };
-    let description = serde_json::from_str(text(FILE)?).map_err(|error| format!("{FILE}: {error}"))?;
+    let description: Description =
+        serde_json::from_str(text(FILE)?).map_err(|error| format!("{FILE}: {error}"))?;
     let mut changed: Vec<(PathBuf, String)> = Vec::new();
     for region in regions(&description) {
         let known = text(region.file)?;
@@ -129,7 +145,7 @@ pub fn outdated(tree: &Tree) -> Result<Vec<(PathBuf, String)>, String> {
             changed.push((region.file.into(), written));
         }
     }
-    changed.extend(python::signatures(&description, tree)?);
+    changed.extend(python::signatures(&description.without_publications(), tree)?);
     Ok(changed)
 }
 

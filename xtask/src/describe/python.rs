@@ -31,7 +31,7 @@ pub(super) fn keywords(description: &Description) -> String {
         literal(&mut text, name, words);
     }
     for (group, name, about) in [
-        ("motion", "Motion", "How an agent moves."),
+        ("motion", "Motion", "The motion of an agent."),
         ("wishes", "Wishes", "Wishes beyond the ends of a path."),
         ("options", "Options", "The options of engines. Each engine takes some of them."),
     ] {

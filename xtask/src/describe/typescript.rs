@@ -8,8 +8,8 @@ use super::{Description, Parameter, wrapped};
 pub(super) fn interfaces(description: &Description) -> String {
     let mut text = String::new();
     for (group, name, about) in [
-        ("motion", "Motion", "How an agent moves."),
-        ("wishes", "Wishes", "What a query asks beyond a path."),
+        ("motion", "Motion", "The motion of an agent."),
+        ("wishes", "Wishes", "Wishes beyond the ends of a path."),
         ("options", "Options", "The options of engines; `engines()` says which engine takes which."),
     ] {
         _ = writeln!(text, "/** {about} */\nexport interface {name} {{");
@@ -29,7 +29,7 @@ pub(super) fn interfaces(description: &Description) -> String {
         ("Status", "The kinds of answers.", &description.statuses),
         ("Limit", "The limits that stop a search.", &description.limits),
         ("Stage", "The stages of a preparation that reports progress.", &description.stages),
-        ("Origin", "How an index came about.", &description.origins),
+        ("Origin", "The ways in which an index came about.", &description.origins),
     ] {
         _ = writeln!(text, "/** {about} */\nexport type {name} = {};\n", union(words));
     }

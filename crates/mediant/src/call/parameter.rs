@@ -6,6 +6,8 @@ use mediant_grid::{CornerRule, DiagonalGap, PlacementKind};
 use mediant_search::Smoothing;
 
 use super::Value;
+#[cfg(feature = "publications")]
+use crate::option::published;
 use crate::{
     demand::EngineName,
     option::{EngineOption, ValueKind, description as option_table},
@@ -140,7 +142,9 @@ const fn option(option: &'static EngineOption) -> Parameter {
     let kind = match option.kind {
         ValueKind::Flag => Kind::Flag,
         ValueKind::Number => Kind::Number,
-        ValueKind::Heuristic | ValueKind::Variant => Kind::Name,
+        ValueKind::Heuristic => Kind::Name,
+        #[cfg(feature = "publications")]
+        ValueKind::Variant => Kind::Name,
         ValueKind::Levels => Kind::NumberOrName,
         ValueKind::Memory => Kind::NumberOrText,
     };
@@ -149,7 +153,7 @@ const fn option(option: &'static EngineOption) -> Parameter {
 }
 
 /// All parameters of calls, in the order of help.
-pub static PARAMETERS: [Parameter; 24] = [
+pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 24 } else { 17 }] = [
     Parameter {
         default: Some("3"),
         ..motion(
@@ -247,16 +251,23 @@ pub static PARAMETERS: [Parameter; 24] = [
         meaning: Meaning::Engine,
     },
     option(&option_table::HEURISTIC),
-    option(&option_table::VARIANT),
-    option(&option_table::JUMP_LIMIT),
-    option(&option_table::KEEP_INTERMEDIATE),
+    #[cfg(feature = "publications")]
+    option(&published::VARIANT),
+    #[cfg(feature = "publications")]
+    option(&published::JUMP_LIMIT),
+    #[cfg(feature = "publications")]
+    option(&published::KEEP_INTERMEDIATE),
     option(&option_table::LEVELS),
     option(&option_table::MEMORY),
     option(&option_table::SIDE),
-    option(&option_table::UNSTRAIGHTENED),
-    option(&option_table::SECOND),
-    option(&option_table::STEP),
-    option(&option_table::DETOUR),
+    #[cfg(feature = "publications")]
+    option(&published::UNSTRAIGHTENED),
+    #[cfg(feature = "publications")]
+    option(&published::SECOND),
+    #[cfg(feature = "publications")]
+    option(&published::STEP),
+    #[cfg(feature = "publications")]
+    option(&published::DETOUR),
     Parameter {
         name: "smooth",
         group: Group::Options,

@@ -157,6 +157,7 @@ impl Value<'_> {
         let text = match option.kind {
             ValueKind::Flag => return Ok(self.flag()?.then_some(OptionValue::Flag)),
             ValueKind::Heuristic => return Ok(Some(OptionValue::Heuristic(self.name()?))),
+            #[cfg(feature = "publications")]
             ValueKind::Variant => return Ok(Some(OptionValue::Variant(self.name()?))),
             ValueKind::Number => self.integer(1)?.to_string(),
             ValueKind::Levels | ValueKind::Memory => match self {

@@ -1,20 +1,24 @@
-//! Canonical A*, which needs a pruning rule, and canonical A* as published, which needs none.
+//! Canonical A*, which needs a pruning rule; for publications also canonical A* as published, which needs
+//! none.
 
 use std::sync::Arc;
 
 use mediant_grid::{GridGraph, Placement};
-use mediant_search::{Canonical, PaperCanonical, Pruning, parts::NodeStore};
+#[cfg(feature = "publications")]
+use mediant_search::PaperCanonical;
+use mediant_search::{Canonical, Pruning, parts::NodeStore};
 
 use super::{Boxed, EngineIndex, Source, boxed, with_options};
+#[cfg(feature = "publications")]
+use crate::option::Variant;
 use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
     heuristic::Admissible,
     option::{
-        HeuristicName, OptionValue, Variant,
-        description::VARIANT,
-        slot::{Field, Options, Slot},
+        HeuristicName, if_published,
+        slot::{Options, Slot},
     },
     setup_error::SetupError,
     shared_rules::{self, Shared},
@@ -26,24 +30,46 @@ pub struct CanonicalOptions {
     /// The heuristic; h_k by default.
     pub heuristic: Option<HeuristicName>,
     /// [`Variant::Exact`] (the default) or [`Variant::Paper`].
+    #[cfg(feature = "publications")]
     pub variant: Option<Variant>,
 }
 
 impl Options for CanonicalOptions {
     fn slots(&mut self) -> Vec<Slot<'_>> {
-        let variant = OptionValue::Variant(self.variant.unwrap_or(Variant::Exact));
-        vec![
+        Vec::from([
             Slot::heuristic(&mut self.heuristic),
-            Slot::new(&VARIANT, Field::Variant(&mut self.variant)).with_value(Some(variant)),
-        ]
+            #[cfg(feature = "publications")]
+            Slot::variant(&mut self.variant, Variant::Exact),
+        ])
     }
 }
 
-/// A grid graph with its pruning rule; without one for the engine as published.
+impl CanonicalOptions {
+    /// Whether it is the engine as published.
+    fn is_as_published(self) -> bool {
+        if_published!(self.variant == Some(Variant::Paper), else false)
+    }
+}
+
+/// A grid graph with its pruning rule.
 pub(super) struct CanonicalIndex<P: Placement> {
     graph: Arc<GridGraph<P>>,
-    pruning: Option<Arc<Pruning<P>>>,
+    rule: Rule<P>,
     heuristic: Admissible,
+}
+
+#[derive(Clone)]
+enum Rule<P: Placement> {
+    Pruning(Arc<Pruning<P>>),
+    /// As published, without a pruning rule.
+    #[cfg(feature = "publications")]
+    AsPublished,
+}
+
+impl<P: Placement> Rule<P> {
+    fn is_as_published(&self) -> bool {
+        if_published!(matches!(self, Self::AsPublished), else false)
+    }
 }
 
 impl<P: Shared> CanonicalIndex<P> {
@@ -53,20 +79,25 @@ impl<P: Shared> CanonicalIndex<P> {
         source: Source<'_>,
     ) -> Result<Self, Error> {
         let heuristic = Admissible::new(Engine::Canonical, own.heuristic)?;
-        let pruning = match own.variant {
-            Some(Variant::Paper) => None,
-            _ => Some(shared_rules::pruning(graph, source.interrupt)?),
-        };
-        Ok(Self { graph: Arc::clone(graph), pruning, heuristic })
+        let graph = Arc::clone(graph);
+        #[cfg(feature = "publications")]
+        if own.is_as_published() {
+            return Ok(Self { graph, rule: Rule::AsPublished, heuristic });
+        }
+        let pruning = shared_rules::pruning(&graph, source.interrupt)?;
+        Ok(Self { graph, rule: Rule::Pruning(pruning), heuristic })
     }
 }
 
 impl<P: Placement> EngineIndex for CanonicalIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
-        Ok(match &self.pruning {
-            Some(pruning) => boxed(Canonical::with_pruning(graph, Arc::clone(pruning), self.heuristic)?),
-            None => boxed(PaperCanonical::new(graph, self.heuristic)),
+        Ok(match &self.rule {
+            Rule::Pruning(pruning) => {
+                boxed(Canonical::with_pruning(graph, Arc::clone(pruning), self.heuristic)?)
+            }
+            #[cfg(feature = "publications")]
+            Rule::AsPublished => boxed(PaperCanonical::new(graph, self.heuristic)),
         })
     }
 
@@ -76,15 +107,19 @@ impl<P: Placement> EngineIndex for CanonicalIndex<P> {
 
     fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
         let ConfiguredEngine::Canonical(own) = engine else { return Ok(None) };
-        if (own.variant == Some(Variant::Paper)) != self.pruning.is_none() {
+        if own.is_as_published() != self.rule.is_as_published() {
             return Err(SetupError::OtherVariant { engine: Engine::Canonical }.into());
         }
-        let (graph, pruning) = (Arc::clone(&self.graph), self.pruning.clone());
+        let (graph, rule) = (Arc::clone(&self.graph), self.rule.clone());
         let heuristic = Admissible::new(Engine::Canonical, own.heuristic)?;
-        with_options(Ok(Self { graph, pruning, heuristic }))
+        with_options(Ok(Self { graph, rule, heuristic }))
     }
 
     fn memory_bytes(&self) -> usize {
-        self.pruning.as_ref().map_or(0, |pruning| pruning.memory_bytes())
+        match &self.rule {
+            Rule::Pruning(pruning) => pruning.memory_bytes(),
+            #[cfg(feature = "publications")]
+            Rule::AsPublished => 0,
+        }
     }
 }

@@ -8,6 +8,8 @@ use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
 use super::{
     Boxed, EngineIndex, Source, boxed, check_counted, check_levels, check_side, shared, with_options,
 };
+#[cfg(feature = "publications")]
+use crate::option::published::UNSTRAIGHTENED;
 use crate::{
     change::Change,
     configured::ConfiguredEngine,
@@ -15,7 +17,8 @@ use crate::{
     error::Error,
     option::{
         Levels, OptionValue,
-        description::{LEVELS, SIDE, UNSTRAIGHTENED},
+        description::{LEVELS, SIDE},
+        if_published,
         slot::{Field, Options, Slot},
     },
     setup_error::SetupError,
@@ -30,6 +33,7 @@ pub struct HpaOptions {
     /// The side of the lowest clusters, in cells; that of [`Clustering::default`] by default.
     pub side: Option<NonZeroU32>,
     /// Whether to leave out the straightening of paths.
+    #[cfg(feature = "publications")]
     pub unstraightened: bool,
 }
 
@@ -39,11 +43,12 @@ impl Options for HpaOptions {
         let levels = NonZeroU32::new(levels).map(Levels::Number);
         let (levels, side) =
             (levels.map(OptionValue::Levels), NonZeroU32::new(side).map(OptionValue::Number));
-        vec![
+        Vec::from([
             Slot::new(&LEVELS, Field::Levels(&mut self.levels)).with_value(levels),
             Slot::new(&SIDE, Field::Number(&mut self.side)).with_value(side),
+            #[cfg(feature = "publications")]
             Slot::new(&UNSTRAIGHTENED, Field::Flag(&mut self.unstraightened)),
-        ]
+        ])
     }
 
     fn check(&self, engine: Engine) -> Result<(), SetupError> {
@@ -105,7 +110,7 @@ impl ClusterIndex {
 impl EngineIndex for ClusterIndex {
     fn search(&self) -> Result<Boxed, Error> {
         let search = HpaStar::new(Arc::clone(&self.graph), Arc::clone(&self.clusters))?;
-        Ok(boxed(search.with_straightening(!self.own.unstraightened)))
+        Ok(boxed(search.with_straightening(if_published!(!self.own.unstraightened, else true))))
     }
 
     fn scratch_bytes(&self) -> usize {
@@ -136,8 +141,9 @@ impl EngineIndex for ClusterIndex {
     }
 
     fn as_prepared(&self) -> Option<ConfiguredEngine> {
-        let (levels, side) = (self.levels(), self.side().and_then(NonZeroU32::new));
-        Some(ConfiguredEngine::Hpa(HpaOptions { levels, side, ..self.own }))
+        let mut own = self.own;
+        (own.levels, own.side) = (self.levels(), self.side().and_then(NonZeroU32::new));
+        Some(ConfiguredEngine::Hpa(own))
     }
 
     fn levels(&self) -> Option<Levels> {

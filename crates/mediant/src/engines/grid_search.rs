@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use mediant_grid::{GridGraph, Placement};
-use mediant_search::{AStar, Euclidean, Hk, SquaredEuclidean, Wavefront, Zero, parts::NodeStore};
+#[cfg(feature = "publications")]
+use mediant_search::SquaredEuclidean;
+use mediant_search::{AStar, Euclidean, Hk, Wavefront, Zero, parts::NodeStore};
 
 use super::{Boxed, EngineIndex, boxed, with_options};
 use crate::{
@@ -65,6 +67,7 @@ impl<P: Placement> EngineIndex for GridSearchIndex<P> {
         Ok(match self.engine {
             GridSearch::AStar(HeuristicName::Hk) => boxed(AStar::new(graph, Hk)),
             GridSearch::AStar(HeuristicName::Euclidean) => boxed(AStar::new(graph, Euclidean)),
+            #[cfg(feature = "publications")]
             GridSearch::AStar(HeuristicName::SquaredEuclidean) => boxed(AStar::new(graph, SquaredEuclidean)),
             GridSearch::AStar(HeuristicName::Zero) | GridSearch::Dijkstra => boxed(AStar::new(graph, Zero)),
             GridSearch::Wavefront => boxed(Wavefront::new(graph)),

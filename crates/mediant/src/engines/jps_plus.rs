@@ -9,6 +9,8 @@ use super::{
     Source,
     jumps::{EngineFinder, JumpIndex, JumpOptions},
 };
+#[cfg(feature = "publications")]
+use crate::option::{published::KEEP_INTERMEDIATE, slot::Field};
 use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
@@ -16,8 +18,7 @@ use crate::{
     memory_check,
     option::{
         HeuristicName,
-        description::KEEP_INTERMEDIATE,
-        slot::{Field, Options, Slot},
+        slot::{Options, Slot},
     },
     shared_rules::{self, Shared},
 };
@@ -28,15 +29,17 @@ pub struct JpsPlusOptions {
     /// The heuristic; h_k by default.
     pub heuristic: Option<HeuristicName>,
     /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
+    #[cfg(feature = "publications")]
     pub keep_intermediate: bool,
 }
 
 impl Options for JpsPlusOptions {
     fn slots(&mut self) -> Vec<Slot<'_>> {
-        vec![
+        Vec::from([
             Slot::heuristic(&mut self.heuristic),
+            #[cfg(feature = "publications")]
             Slot::new(&KEEP_INTERMEDIATE, Field::Flag(&mut self.keep_intermediate)),
-        ]
+        ])
     }
 }
 
@@ -74,7 +77,13 @@ impl<P: Placement> EngineFinder<P> for Arc<JumpTable> {
 
 /// The table has jumps of every length.
 impl From<JpsPlusOptions> for JumpOptions {
-    fn from(JpsPlusOptions { heuristic, keep_intermediate }: JpsPlusOptions) -> Self {
-        Self { heuristic, jump_limit: None, keep_intermediate }
+    fn from(own: JpsPlusOptions) -> Self {
+        Self {
+            heuristic: own.heuristic,
+            #[cfg(feature = "publications")]
+            jump_limit: None,
+            #[cfg(feature = "publications")]
+            keep_intermediate: own.keep_intermediate,
+        }
     }
 }

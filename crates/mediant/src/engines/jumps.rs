@@ -1,6 +1,8 @@
 //! Jump point search, vertex by vertex and by blocks; JPS+ adds [lists](super::jps_plus) to it.
 
-use std::{num::NonZeroU32, sync::Arc};
+#[cfg(feature = "publications")]
+use std::num::NonZeroU32;
+use std::sync::Arc;
 
 use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VertexId};
 use mediant_search::{
@@ -9,6 +11,11 @@ use mediant_search::{
 };
 
 use super::{Boxed, EngineIndex, Source, boxed, with_options};
+#[cfg(feature = "publications")]
+use crate::option::{
+    published::{JUMP_LIMIT, KEEP_INTERMEDIATE},
+    slot::Field,
+};
 use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
@@ -16,9 +23,8 @@ use crate::{
     heuristic::Admissible,
     memory_check,
     option::{
-        HeuristicName,
-        description::{JUMP_LIMIT, KEEP_INTERMEDIATE},
-        slot::{Field, Options, Slot},
+        HeuristicName, if_published,
+        slot::{Options, Slot},
     },
     shared_rules::{self, Shared},
 };
@@ -29,18 +35,29 @@ pub struct JumpOptions {
     /// The heuristic; h_k by default.
     pub heuristic: Option<HeuristicName>,
     /// The most steps that a jump may take; unlimited by default.
+    #[cfg(feature = "publications")]
     pub jump_limit: Option<NonZeroU32>,
     /// Whether to keep intermediate jump points, at which a path only turns on its way to another jump point.
+    #[cfg(feature = "publications")]
     pub keep_intermediate: bool,
 }
 
 impl Options for JumpOptions {
     fn slots(&mut self) -> Vec<Slot<'_>> {
-        vec![
+        Vec::from([
             Slot::heuristic(&mut self.heuristic),
+            #[cfg(feature = "publications")]
             Slot::new(&JUMP_LIMIT, Field::Number(&mut self.jump_limit)),
+            #[cfg(feature = "publications")]
             Slot::new(&KEEP_INTERMEDIATE, Field::Flag(&mut self.keep_intermediate)),
-        ]
+        ])
+    }
+}
+
+impl JumpOptions {
+    /// The most steps of a jump, and whether intermediate jump points are kept.
+    fn published(self) -> (Option<u32>, bool) {
+        if_published!((self.jump_limit.map(NonZeroU32::get), self.keep_intermediate), else (None, false))
     }
 }
 
@@ -50,8 +67,7 @@ pub(super) struct JumpIndex<P: Placement, J> {
     pruning: Arc<Pruning<P>>,
     finder: J,
     heuristic: Admissible,
-    limit: Option<NonZeroU32>,
-    keep_intermediate: bool,
+    own: JumpOptions,
 }
 
 /// The finder of jump points of one of the engines.
@@ -101,9 +117,8 @@ impl<P: Placement, J: EngineFinder<P>> JumpIndex<P, J> {
         finder: J,
         own: JumpOptions,
     ) -> Result<Self, Error> {
-        let JumpOptions { heuristic, jump_limit: limit, keep_intermediate } = own;
-        let heuristic = Admissible::new(J::ENGINE, heuristic)?;
-        Ok(Self { graph: Arc::clone(graph), pruning, finder, heuristic, limit, keep_intermediate })
+        let heuristic = Admissible::new(J::ENGINE, own.heuristic)?;
+        Ok(Self { graph: Arc::clone(graph), pruning, finder, heuristic, own })
     }
 }
 
@@ -111,8 +126,8 @@ impl<P: Placement, J: EngineFinder<P> + 'static> EngineIndex for JumpIndex<P, J>
     fn search(&self) -> Result<Boxed, Error> {
         let (graph, pruning) = (Arc::clone(&self.graph), Arc::clone(&self.pruning));
         let search = JumpPointSearch::with_finder(graph, pruning, self.finder.clone(), self.heuristic)?;
-        let search = search.with_jump_limit(self.limit.map(NonZeroU32::get));
-        Ok(boxed(search.with_intermediate(self.keep_intermediate)))
+        let (limit, keep_intermediate) = self.own.published();
+        Ok(boxed(search.with_jump_limit(limit).with_intermediate(keep_intermediate)))
     }
 
     fn scratch_bytes(&self) -> usize {

@@ -4,7 +4,9 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted};
 use mediant_hierarchy::{ChpaStar, FallbackPolicy, SegmentGraph};
-use mediant_search::{Heuristic, SquaredEuclidean};
+use mediant_search::Heuristic;
+#[cfg(feature = "publications")]
+use mediant_search::SquaredEuclidean;
 
 use super::{Boxed, EngineIndex, Source, boxed, check_side, shared, with_options};
 use crate::{
@@ -14,12 +16,17 @@ use crate::{
     error::Error,
     heuristic::Admissible,
     option::{
-        HeuristicName, OptionValue, Variant,
-        description::{DETOUR, SECOND, SIDE, STEP, VARIANT},
+        HeuristicName, OptionValue,
+        description::SIDE,
+        if_published,
         slot::{Field, Options, Slot},
     },
-    setup_error::SetupError,
     space::PlacementOfSpace as _,
+};
+#[cfg(feature = "publications")]
+use crate::{
+    option::published::{DETOUR, SECOND, STEP, Variant},
+    setup_error::SetupError,
 };
 
 /// Options of CHPA*.
@@ -28,38 +35,49 @@ pub struct ChpaOptions {
     /// The heuristic of the first phase; h_k by default.
     pub heuristic: Option<HeuristicName>,
     /// [`Variant::Complete`] (the default) or [`Variant::Paper`].
+    #[cfg(feature = "publications")]
     pub variant: Option<Variant>,
     /// The side of the segments, in cells; 3, as in the paper, by default.
     pub side: Option<NonZeroU32>,
     /// The heuristic of the second phase; that of the first by default.
+    #[cfg(feature = "publications")]
     pub second: Option<HeuristicName>,
     /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023); 2 by default.
+    #[cfg(feature = "publications")]
     pub step: Option<NonZeroU32>,
     /// How many times h_k the path to a checkpoint may cost before the search skips that checkpoint; that of
     /// [`FallbackPolicy::default`] by default. Only for [`Variant::Complete`].
+    #[cfg(feature = "publications")]
     pub detour: Option<NonZeroU32>,
 }
 
 impl Options for ChpaOptions {
     fn slots(&mut self) -> Vec<Slot<'_>> {
-        let variant = OptionValue::Variant(self.variant.unwrap_or(Variant::Complete));
         let side = self.side.or(NonZeroU32::new(SegmentGraph::PAPER_SIDE)).map(OptionValue::Number);
-        let [_, second] = self.heuristics().map(OptionValue::Heuristic);
-        let step = OptionValue::Number(self.step());
-        let detour = match self.fallback_policy() {
-            FallbackPolicy::Complete { detour } => Some(OptionValue::Number(detour)),
-            FallbackPolicy::Paper => None,
+        #[cfg(feature = "publications")]
+        let [second, step, detour] = {
+            let detour = match self.fallback_policy() {
+                FallbackPolicy::Complete { detour } => Some(OptionValue::Number(detour)),
+                FallbackPolicy::Paper => None,
+            };
+            let [_, second] = self.heuristics().map(OptionValue::Heuristic);
+            [Some(second), Some(OptionValue::Number(self.step())), detour]
         };
-        vec![
+        Vec::from([
             Slot::heuristic(&mut self.heuristic),
-            Slot::new(&VARIANT, Field::Variant(&mut self.variant)).with_value(Some(variant)),
+            #[cfg(feature = "publications")]
+            Slot::variant(&mut self.variant, Variant::Complete),
             Slot::new(&SIDE, Field::Number(&mut self.side)).with_value(side),
-            Slot::new(&SECOND, Field::Heuristic(&mut self.second)).with_value(Some(second)),
-            Slot::new(&STEP, Field::Number(&mut self.step)).with_value(Some(step)),
+            #[cfg(feature = "publications")]
+            Slot::new(&SECOND, Field::Heuristic(&mut self.second)).with_value(second),
+            #[cfg(feature = "publications")]
+            Slot::new(&STEP, Field::Number(&mut self.step)).with_value(step),
+            #[cfg(feature = "publications")]
             Slot::new(&DETOUR, Field::Number(&mut self.detour)).with_value(detour),
-        ]
+        ])
     }
 
+    #[cfg(feature = "publications")]
     fn check(&self, engine: Engine) -> Result<(), SetupError> {
         match (self.variant, self.detour) {
             (Some(Variant::Paper), Some(_)) => Err(SetupError::DetourAsPublished { engine }),
@@ -72,21 +90,24 @@ impl ChpaOptions {
     /// The heuristics of the first and of the second phase.
     fn heuristics(self) -> [HeuristicName; 2] {
         let first = self.heuristic.unwrap_or_default();
-        [first, self.second.unwrap_or(first)]
+        [first, if_published!(self.second.unwrap_or(first), else first)]
     }
 
     /// Every how many segments there is a checkpoint.
     fn step(self) -> NonZeroU32 {
-        self.step.unwrap_or(NonZeroU32::MIN.saturating_add(1))
+        let default = NonZeroU32::MIN.saturating_add(1);
+        if_published!(self.step.unwrap_or(default), else default)
     }
 
     /// The search's fallback where its plan fails.
     fn fallback_policy(self) -> FallbackPolicy {
-        match self.detour {
-            _ if self.variant == Some(Variant::Paper) => FallbackPolicy::Paper,
-            Some(detour) => FallbackPolicy::Complete { detour },
-            None => FallbackPolicy::default(),
+        #[cfg(feature = "publications")]
+        match (self.variant, self.detour) {
+            (Some(Variant::Paper), _) => return FallbackPolicy::Paper,
+            (_, Some(detour)) => return FallbackPolicy::Complete { detour },
+            _ => {}
         }
+        FallbackPolicy::default()
     }
 }
 
@@ -135,17 +156,17 @@ impl SegmentIndex {
 }
 
 impl EngineIndex for SegmentIndex {
-    /// Compiled for each phase with and without a heuristic that overestimates.
+    /// For publications compiled for each phase with and without a heuristic that overestimates.
     fn search(&self) -> Result<Boxed, Error> {
-        let [first, second] =
-            self.own.heuristics().map(|name| Admissible::new(Engine::Chpa, Some(name)).ok());
-        let squared = SquaredEuclidean;
-        match (first, second) {
-            (Some(first), Some(second)) => self.search_by(first, second),
-            (Some(first), None) => self.search_by(first, squared),
-            (None, Some(second)) => self.search_by(squared, second),
-            (None, None) => self.search_by(squared, squared),
+        let [first, second] = self.own.heuristics().map(|name| Admissible::new(Engine::Chpa, Some(name)));
+        #[cfg(feature = "publications")]
+        match (&first, &second) {
+            (Ok(first), Err(_)) => return self.search_by(*first, SquaredEuclidean),
+            (Err(_), Ok(second)) => return self.search_by(SquaredEuclidean, *second),
+            (Err(_), Err(_)) => return self.search_by(SquaredEuclidean, SquaredEuclidean),
+            (Ok(_), Ok(_)) => {}
         }
+        self.search_by(first?, second?)
     }
 
     fn scratch_bytes(&self) -> usize {

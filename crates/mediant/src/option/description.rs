@@ -1,5 +1,7 @@
 //! One description of each option, for every place that writes or reads it.
 
+#[cfg(feature = "publications")]
+use super::published::{DETOUR, JUMP_LIMIT, KEEP_INTERMEDIATE, SECOND, STEP, UNSTRAIGHTENED, VARIANT};
 use super::value::{OptionValue, ValueKind};
 
 /// An option that some engines take: its name, its texts and the kind of its value.
@@ -9,32 +11,34 @@ use super::value::{OptionValue, ValueKind};
 /// ```
 /// use mediant::{Engine, Setup, options::{ConfiguredEngine, EngineOption}};
 ///
-/// let limit = EngineOption::ALL.into_iter().find(|option| option.name == "jump-limit");
-/// let limit = limit.ok_or("no such option")?;
-/// let mut engine = ConfiguredEngine::from(Engine::Jps);
-/// engine.set(limit, limit.parse("16")?)?;
-/// assert_eq!("jps,limit=16".parse::<Setup>()?.engine, engine);
+/// let side = EngineOption::ALL.into_iter().find(|option| option.name == "side");
+/// let side = side.ok_or("no such option")?;
+/// let mut engine = ConfiguredEngine::from(Engine::Hpa);
+/// engine.set(side, side.parse("16")?)?;
+/// assert_eq!("hpa,side=16".parse::<Setup>()?.engine, engine);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EngineOption {
     /// Its name: that of the program's flag, as `jump-limit`, and with `_` for `-` of the key in its records.
     pub name: &'static str,
-    /// Its noun in errors: `jps-plus takes no jump limit`.
-    noun: &'static str,
+    /// Its noun in errors: `jps-plus takes no side`.
+    pub(super) noun: &'static str,
     /// The kind of its value.
     pub kind: ValueKind,
     /// Its key in the text of a [`Setup`](crate::Setup), written `KEY=VALUE`, or just `KEY` for a flag.
     /// `None` if the value is written without a key.
-    key: Option<&'static str>,
+    pub(super) key: Option<&'static str>,
     /// Whether it decides what an index holds.
     pub is_index_option: bool,
+    /// Whether it only reproduces a publication. Such options are there with the feature `publications`.
+    pub is_published: bool,
     /// Its effect, in a sentence.
     pub help: &'static str,
     /// Its phrase in reports, with `{}` in place of the value.
-    phrase: &'static str,
+    pub(super) phrase: &'static str,
     /// Values that the test suites try, as text.
-    samples: &'static [&'static str],
+    pub(super) samples: &'static [&'static str],
 }
 
 /// The heuristic of the search.
@@ -44,47 +48,15 @@ pub(crate) static HEURISTIC: EngineOption = EngineOption {
     kind: ValueKind::Heuristic,
     key: None,
     is_index_option: false,
-    help: "The heuristic of the search: the cost on an empty grid (the default), the straight-line distance, \
-           zero, or the distance squared, which overestimates",
+    is_published: false,
+    help: "The heuristic of the search: hk, the cost on an empty grid (the default), euclidean, the \
+           straight-line distance, or zero",
     phrase: "heuristic {}",
-    samples: &["euclidean", "zero", "squared"],
-};
-
-/// The variant of an engine.
-pub(crate) static VARIANT: EngineOption = EngineOption {
-    name: "variant",
-    noun: "variant",
-    kind: ValueKind::Variant,
-    key: None,
-    is_index_option: false,
-    help: "For an engine that was published with a flaw: the repaired variant (the default; exact for \
-           canonical, complete for chpa), or paper, the published one",
-    phrase: "variant {}",
-    samples: &["paper"],
-};
-
-/// The most steps that a jump may take.
-pub(crate) static JUMP_LIMIT: EngineOption = EngineOption {
-    name: "jump-limit",
-    noun: "jump limit",
-    kind: ValueKind::Number,
-    key: Some("limit"),
-    is_index_option: false,
-    help: "Limit each jump to N steps",
-    phrase: "jumps up to {}",
-    samples: &["2"],
-};
-
-/// Whether to keep intermediate jump points.
-pub(crate) static KEEP_INTERMEDIATE: EngineOption = EngineOption {
-    name: "keep-intermediate",
-    noun: "intermediate jump points",
-    kind: ValueKind::Flag,
-    key: Some("intermediate"),
-    is_index_option: false,
-    help: "Keep intermediate jump points, at which a path only turns on its way to another jump point",
-    phrase: "intermediate jump points kept",
-    samples: &[""],
+    samples: if cfg!(feature = "publications") {
+        &["euclidean", "zero", "squared"]
+    } else {
+        &["euclidean", "zero"]
+    },
 };
 
 /// The levels of a subgoal graph or of clusters, or hub labels.
@@ -94,6 +66,7 @@ pub(crate) static LEVELS: EngineOption = EngineOption {
     kind: ValueKind::Levels,
     key: Some("levels"),
     is_index_option: true,
+    is_published: false,
     help: "The number of levels of the subgoal graph (1 is the graph without a hierarchy) or of the \
            clusters, or all; for subgoal also labels (hub labels) or contracted (a contraction hierarchy). By \
            default hub labels for subgoal if they fit in --memory, else a contraction hierarchy; 2 levels for \
@@ -109,6 +82,7 @@ pub(crate) static MEMORY: EngineOption = EngineOption {
     kind: ValueKind::Memory,
     key: Some("memory"),
     is_index_option: true,
+    is_published: false,
     help: "The memory that the hub labels of subgoal may take, as 8MB. 48 bytes a cell by default, but at \
            least 32MB and at most 1GB. A map whose labels take more has a contraction hierarchy, and the \
            same paths",
@@ -123,60 +97,11 @@ pub(crate) static SIDE: EngineOption = EngineOption {
     kind: ValueKind::Number,
     key: Some("side"),
     is_index_option: true,
+    is_published: false,
     help: "Cut the map into clusters (on the lowest level) or segments of N × N cells. 10 by default for \
            hpa, 3 for chpa; with --index, those of the index",
     phrase: "side {}",
     samples: &["2", "5"],
-};
-
-/// Whether HPA* leaves out its straightening.
-pub(crate) static UNSTRAIGHTENED: EngineOption = EngineOption {
-    name: "unstraightened",
-    noun: "option unstraightened",
-    kind: ValueKind::Flag,
-    key: Some("unstraightened"),
-    is_index_option: false,
-    help: "Leave out the straightening of hpa, which shortens each path after the search",
-    phrase: "paths not straightened",
-    samples: &[""],
-};
-
-/// The heuristic of the second phase.
-pub(crate) static SECOND: EngineOption = EngineOption {
-    name: "second",
-    noun: "second heuristic",
-    kind: ValueKind::Heuristic,
-    key: Some("second"),
-    is_index_option: false,
-    help: "The heuristic of chpa's second phase, from checkpoint to checkpoint. That of the first phase by \
-           default",
-    phrase: "second heuristic {}",
-    samples: &["squared"],
-};
-
-/// Every how many segments there is a checkpoint.
-pub(crate) static STEP: EngineOption = EngineOption {
-    name: "step",
-    noun: "step",
-    kind: ValueKind::Number,
-    key: Some("step"),
-    is_index_option: false,
-    help: "Plan a checkpoint every N segments. 2 by default",
-    phrase: "step {}",
-    samples: &["1"],
-};
-
-/// How long the path to a checkpoint may be.
-pub(crate) static DETOUR: EngineOption = EngineOption {
-    name: "detour",
-    noun: "detour",
-    kind: ValueKind::Number,
-    key: Some("detour"),
-    is_index_option: false,
-    help: "Skip a checkpoint to which the path costs more than N times what it would cost on an empty grid. \
-           3 by default",
-    phrase: "detours up to {}",
-    samples: &["1"],
 };
 
 impl EngineOption {
@@ -184,28 +109,41 @@ impl EngineOption {
     ///
     /// | in the text of a setup | flag of the program | meaning |
     /// |---|---|---|
-    /// | `hk`, `euclidean`, `zero`, `squared` | `--heuristic` | the heuristic of the search |
-    /// | `exact`, `complete`, `paper` | `--variant` | the repaired or the published variant |
-    /// | `limit=N` | `--jump-limit` | jumps of at most N steps |
-    /// | `intermediate` | `--keep-intermediate` | intermediate jump points are kept |
+    /// | `hk`, `euclidean`, `zero` | `--heuristic` | the heuristic of the search |
     /// | `levels=N`, `levels=all`, `levels=contracted`, `levels=labels` | `--levels` | the levels of a subgoal graph or of clusters, or hub labels |
     /// | `memory=8MB` | `--memory` | the memory that hub labels may take |
     /// | `side=N` | `--side` | the side of a cluster or segment, in cells |
+    ///
+    /// The feature `publications` adds those that only reproduce publications:
+    ///
+    /// | in the text of a setup | flag of the program | meaning |
+    /// |---|---|---|
+    /// | `squared` | `--heuristic` | a heuristic that overestimates |
+    /// | `exact`, `complete`, `paper` | `--variant` | the repaired or the published variant |
+    /// | `limit=N` | `--jump-limit` | jumps of at most N steps |
+    /// | `intermediate` | `--keep-intermediate` | intermediate jump points are kept |
     /// | `unstraightened` | `--unstraightened` | paths through clusters are not straightened |
     /// | `second=NAME` | `--second` | the heuristic of the second phase |
     /// | `step=N` | `--step` | a checkpoint every N segments |
     /// | `detour=N` | `--detour` | how many times h_k the path to a checkpoint may cost |
-    pub const ALL: [&'static Self; 11] = [
+    pub const ALL: [&'static Self; if cfg!(feature = "publications") { 11 } else { 4 }] = [
         &HEURISTIC,
+        #[cfg(feature = "publications")]
         &VARIANT,
+        #[cfg(feature = "publications")]
         &JUMP_LIMIT,
+        #[cfg(feature = "publications")]
         &KEEP_INTERMEDIATE,
         &LEVELS,
         &MEMORY,
         &SIDE,
+        #[cfg(feature = "publications")]
         &UNSTRAIGHTENED,
+        #[cfg(feature = "publications")]
         &SECOND,
+        #[cfg(feature = "publications")]
         &STEP,
+        #[cfg(feature = "publications")]
         &DETOUR,
     ];
 
@@ -242,7 +180,7 @@ impl EngineOption {
                 ["N", "all", "contracted", "labels"].map(|value| format!("{key}={value}")).join(", ")
             }
             (Some(key), ValueKind::Memory) => format!("{key}=BYTES"),
-            (Some(key), ValueKind::Heuristic | ValueKind::Variant) => {
+            (Some(key), _) => {
                 format!("{key}={}", self.noun.split(' ').next_back().unwrap_or_default().to_uppercase())
             }
         }

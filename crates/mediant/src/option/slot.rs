@@ -2,11 +2,13 @@
 
 use std::num::NonZeroU32;
 
+#[cfg(feature = "publications")]
+use super::published::{VARIANT, Variant};
 use super::{
     description::{EngineOption, HEURISTIC},
     levels::Levels,
     memory::Memory,
-    value::{HeuristicName, OptionValue, Variant},
+    value::{HeuristicName, OptionValue},
 };
 use crate::{engine::Engine, setup_error::SetupError};
 
@@ -43,6 +45,13 @@ impl<'e> Slot<'e> {
         Self::new(&HEURISTIC, Field::Heuristic(field)).with_value(Some(value))
     }
 
+    /// The variant of an engine.
+    #[cfg(feature = "publications")]
+    pub(crate) fn variant(field: &'e mut Option<Variant>, default: Variant) -> Self {
+        let value = OptionValue::Variant(field.unwrap_or(default));
+        Self::new(&VARIANT, Field::Variant(field)).with_value(Some(value))
+    }
+
     /// The option with the value that it has, chosen or not.
     pub(crate) fn with_value(self, value: Option<OptionValue>) -> Self {
         Self { value, ..self }
@@ -50,10 +59,12 @@ impl<'e> Slot<'e> {
 }
 
 /// The field of an engine's options that holds the value of an option.
+#[cfg_attr(not(feature = "publications"), expect(dead_code, reason = "no option of users is a flag"))]
 pub(crate) enum Field<'e> {
     Flag(&'e mut bool),
     Number(&'e mut Option<NonZeroU32>),
     Heuristic(&'e mut Option<HeuristicName>),
+    #[cfg(feature = "publications")]
     Variant(&'e mut Option<Variant>),
     Levels(&'e mut Option<Levels>),
     Memory(&'e mut Option<Memory>),
@@ -66,6 +77,7 @@ impl Field<'_> {
             Self::Flag(is_set) => is_set.then_some(OptionValue::Flag),
             Self::Number(number) => number.map(OptionValue::Number),
             Self::Heuristic(name) => name.map(OptionValue::Heuristic),
+            #[cfg(feature = "publications")]
             Self::Variant(variant) => variant.map(OptionValue::Variant),
             Self::Levels(levels) => levels.map(OptionValue::Levels),
             Self::Memory(memory) => memory.map(OptionValue::Memory),
@@ -78,6 +90,7 @@ impl Field<'_> {
             (Self::Flag(slot), OptionValue::Flag) => *slot = true,
             (Self::Number(slot), OptionValue::Number(number)) => *slot = Some(number),
             (Self::Heuristic(slot), OptionValue::Heuristic(name)) => *slot = Some(name),
+            #[cfg(feature = "publications")]
             (Self::Variant(slot), OptionValue::Variant(variant)) => *slot = Some(variant),
             (Self::Levels(slot), OptionValue::Levels(levels)) => *slot = Some(levels),
             (Self::Memory(slot), OptionValue::Memory(memory)) => *slot = Some(memory),

@@ -6,10 +6,14 @@ use std::{
 };
 
 use super::{
+    if_published,
     levels::{Levels, UnknownLevels},
     memory::{Memory, UnknownMemory},
 };
 use mediant_grid::{names, names::UnknownName};
+
+#[cfg(feature = "publications")]
+use super::published::Variant;
 
 /// The heuristic that guides a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -21,24 +25,24 @@ pub enum HeuristicName {
     Euclidean,
     /// 0 everywhere: no guidance.
     Zero,
-    /// The square of the straight-line distance, which overestimates.
+    /// The square of the straight-line distance, which overestimates. Only with the feature `publications`.
+    #[cfg(feature = "publications")]
     SquaredEuclidean,
 }
 
-names!(HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero", SquaredEuclidean => "squared");
+names!(
+    HeuristicName: Hk => "hk", Euclidean => "euclidean", Zero => "zero",
+    #[cfg(feature = "publications")]
+    SquaredEuclidean => "squared"
+);
 
-/// The variants of an engine that was published with a flaw: repaired or as published.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Variant {
-    /// The repaired pruning rule of canonical A*, which is optimal.
-    Exact,
-    /// The repaired CHPA*, which finds a path whenever there is one.
-    Complete,
-    /// As published.
-    Paper,
+impl HeuristicName {
+    /// Whether it overestimates: paths may then be longer.
+    #[must_use]
+    pub const fn overestimates(self) -> bool {
+        if_published!(matches!(self, Self::SquaredEuclidean), else false)
+    }
 }
-
-names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");
 
 /// The kinds of value that options take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,7 +53,8 @@ pub enum ValueKind {
     Number,
     /// The name of a heuristic.
     Heuristic,
-    /// The name of a variant.
+    /// The name of a variant. Only with the feature `publications`.
+    #[cfg(feature = "publications")]
     Variant,
     /// A number of levels, `all`, `contracted` or `labels`.
     Levels,
@@ -66,7 +71,8 @@ pub enum OptionValue {
     Number(NonZeroU32),
     /// A heuristic.
     Heuristic(HeuristicName),
-    /// A variant.
+    /// A variant. Only with the feature `publications`.
+    #[cfg(feature = "publications")]
     Variant(Variant),
     /// Levels.
     Levels(Levels),
@@ -84,6 +90,7 @@ impl ValueKind {
             Self::Heuristic => {
                 text.parse().map(OptionValue::Heuristic).map_err(|wrong: UnknownName| wrong.to_string())
             }
+            #[cfg(feature = "publications")]
             Self::Variant => {
                 text.parse().map(OptionValue::Variant).map_err(|wrong: UnknownName| wrong.to_string())
             }
@@ -100,6 +107,7 @@ impl ValueKind {
     pub(super) fn names(self) -> Vec<&'static str> {
         match self {
             Self::Heuristic => HeuristicName::ALL.map(HeuristicName::name).to_vec(),
+            #[cfg(feature = "publications")]
             Self::Variant => Variant::ALL.map(Variant::name).to_vec(),
             Self::Levels => vec!["all", "contracted", "labels"],
             Self::Flag | Self::Number | Self::Memory => Vec::new(),
@@ -116,6 +124,7 @@ impl OptionValue {
         if let Self::Heuristic(name) = self { Some(name) } else { None }
     }
 
+    #[cfg(feature = "publications")]
     pub(crate) const fn variant(self) -> Option<Variant> {
         if let Self::Variant(variant) = self { Some(variant) } else { None }
     }
@@ -132,6 +141,7 @@ impl fmt::Display for OptionValue {
             Self::Flag => Ok(()),
             Self::Number(number) => number.fmt(f),
             Self::Heuristic(name) => name.fmt(f),
+            #[cfg(feature = "publications")]
             Self::Variant(variant) => variant.fmt(f),
             Self::Levels(levels) => levels.fmt(f),
             Self::Memory(memory) => memory.fmt(f),

@@ -3,8 +3,8 @@
 
 use mediant::{
     Engine, ErrorCode, Limit, Origin, Status,
-    call::{Kind, PARAMETERS, Unit},
-    options::ConfiguredEngine,
+    call::{Kind, PARAMETERS, Parameter, Unit},
+    options::{ConfiguredEngine, HeuristicName},
     search::Stage,
 };
 use serde_json::{Value, json};
@@ -32,6 +32,9 @@ fn description() -> Value {
             }),
             "default": parameter.default,
             "names": parameter.values(),
+            // Only with the feature `publications`, which these tests have.
+            "published": parameter.option().is_some_and(|option| option.is_published),
+            "published_names": published_names(parameter),
             "help": parameter.help,
         })
     });
@@ -64,6 +67,13 @@ fn description() -> Value {
         "origins": Origin::ALL.map(Origin::name),
         "codes": ErrorCode::ALL.map(ErrorCode::name).to_vec(),
     })
+}
+
+/// The names of a parameter that only the feature `publications` knows.
+fn published_names(parameter: &Parameter) -> Vec<&'static str> {
+    let is_published = |name: &HeuristicName| name.overestimates();
+    let names = HeuristicName::ALL.into_iter().filter(is_published).map(HeuristicName::name);
+    names.filter(|name| parameter.values().contains(name)).collect()
 }
 
 #[test]

@@ -53,8 +53,7 @@ Engine: TypeAlias = Literal[
     "hpa",
     "chpa",
 ]
-Heuristic: TypeAlias = Literal["hk", "euclidean", "zero", "squared"]
-Variant: TypeAlias = Literal["exact", "complete", "paper"]
+Heuristic: TypeAlias = Literal["hk", "euclidean", "zero"]
 Smooth: TypeAlias = Literal["linear", "taut"]
 Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
 Limit: TypeAlias = Literal["cost", "expansions", "timeout", "cancelled"]
@@ -62,7 +61,7 @@ Stage: TypeAlias = Literal["edges", "hierarchy", "sight", "labels"]
 Origin: TypeAlias = Literal["prepared", "loaded", "repaired", "unchanged"]
 
 class Motion(TypedDict, total=False):
-    """How an agent moves."""
+    """The motion of an agent."""
 
     k: SupportsIndex | Literal["any"] | None
     neighbors: SupportsIndex | None
@@ -84,16 +83,9 @@ class Options(TypedDict, total=False):
     """The options of engines. Each engine takes some of them."""
 
     heuristic: Heuristic | None
-    variant: Variant | None
-    jump_limit: SupportsIndex | None
-    keep_intermediate: bool | None
     levels: SupportsIndex | Literal["all", "contracted", "labels"] | None
     memory: SupportsIndex | str | None
     side: SupportsIndex | None
-    unstraightened: bool | None
-    second: Heuristic | None
-    step: SupportsIndex | None
-    detour: SupportsIndex | None
     smooth: Smooth | None
 
 class FromGrid(Motion, Wishes, Options, total=False):

@@ -66,9 +66,8 @@ impl Grid {
         signature = (start, goal, *, points = None, **how),
         text_signature = "($self, start, goal, *, points='waypoints', k=None, neighbors=None, placement=None, \
             corners=None, gap=None, nearest=False, snap=False, tolerance=None, max_cost=None, \
-            max_expansions=None, timeout=None, engine='auto', heuristic=None, variant=None, jump_limit=None, \
-            keep_intermediate=False, levels=None, memory=None, side=None, unstraightened=False, second=None, \
-            step=None, detour=None, smooth=None)"
+            max_expansions=None, timeout=None, engine='auto', heuristic=None, levels=None, memory=None, \
+            side=None, smooth=None)"
     )]
     fn path<'py>(
         &self,
@@ -116,9 +115,7 @@ impl Grid {
         signature = (start, goal, **how),
         text_signature = "($self, start, goal, *, k=None, neighbors=None, placement=None, corners=None, gap=None, \
             nearest=False, snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, \
-            engine='auto', heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
-            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
-            smooth=None)"
+            engine='auto', heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn distance<'py>(
         &self,
@@ -207,9 +204,8 @@ impl Grid {
         signature = (start, goal, *, points = None, counters = None, **how),
         text_signature = "($self, start, goal, *, points='waypoints', counters=False, k=None, neighbors=None, \
             placement=None, corners=None, gap=None, nearest=False, snap=False, tolerance=None, \
-            max_cost=None, max_expansions=None, timeout=None, engine='auto', heuristic=None, variant=None, \
-            jump_limit=None, keep_intermediate=False, levels=None, memory=None, side=None, \
-            unstraightened=False, second=None, step=None, detour=None, smooth=None)"
+            max_cost=None, max_expansions=None, timeout=None, engine='auto', heuristic=None, levels=None, \
+            memory=None, side=None, smooth=None)"
     )]
     fn find<'py>(
         &self,
@@ -255,8 +251,7 @@ impl Grid {
         signature = (**how),
         text_signature = "($self, *, k=None, neighbors=None, placement=None, corners=None, gap=None, nearest=False, \
             snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, engine='auto', \
-            heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, levels=None, \
-            memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, smooth=None)"
+            heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn setup(&self, how: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
         let keywords = Keywords::read("setup", how, ALL)?;
@@ -277,10 +272,8 @@ impl Grid {
     ///     Called now and then with the stage (``"edges"``, ``"hierarchy"``, ``"sight"`` or ``"labels"``),
     ///     and the number of subgoals that it has finished and of all: a hierarchy leaves the last ones as
     ///     they are. Only the engines on subgoals report progress.
-    /// heuristic : {"hk", "euclidean", "zero", "squared"}, optional
+    /// heuristic : {"hk", "euclidean", "zero"}, optional
     ///     The heuristic of the search.
-    /// variant : {"exact", "complete", "paper"}, optional
-    ///     The repaired engine or the published one.
     /// levels : int, "all", "contracted" or "labels", optional
     ///     Of subgoal graphs and clusters. ``subgoal`` has hub labels by default if they fit in `memory`,
     ///     else a contraction hierarchy; `Index.levels` says which.
@@ -289,12 +282,6 @@ impl Grid {
     ///     By default 48 bytes a cell, but at least 32 MB and at most 1 GB.
     /// side : int, optional
     ///     The side of a cluster or segment, in cells.
-    /// jump_limit, step, detour : int, optional
-    ///     Of jump point search and CHPA*.
-    /// keep_intermediate, unstraightened : bool, optional
-    ///     Of jump point search and HPA*.
-    /// second : str, optional
-    ///     The heuristic of the second phase of CHPA*.
     /// smooth : {"linear", "taut"}, optional
     ///     Shortens paths after the search; they are at any angle then.
     ///
@@ -317,9 +304,7 @@ impl Grid {
     #[pyo3(
         signature = (engine = None, *, threads = None, progress = None, **preparation),
         text_signature = "($self, engine=None, *, threads=None, progress=None, k=None, neighbors=None, placement=None, \
-            corners=None, gap=None, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
-            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
-            smooth=None)"
+            corners=None, gap=None, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn prepare<'py>(
         &self,
@@ -378,9 +363,7 @@ impl Grid {
     /// See `Index.save`.
     #[pyo3(
         signature = (path, **options),
-        text_signature = "($self, path, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
-            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
-            smooth=None)"
+        text_signature = "($self, path, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn load(
         &self,
@@ -419,9 +402,7 @@ impl Grid {
     /// See `Index.to_bytes`.
     #[pyo3(
         signature = (data, **options),
-        text_signature = "($self, data, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, \
-            levels=None, memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, \
-            smooth=None)"
+        text_signature = "($self, data, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn index_from_bytes(
         &self,

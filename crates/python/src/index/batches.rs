@@ -27,8 +27,7 @@ impl Index {
     ///     Called now and then with the number of queries that were answered and of all.
     /// invalid : {"raise", "none"}
     ///     For a query whose start or goal is blocked or outside the map: raise an error, or answer it with
-    ///     no path. A query at which the engine gives up, though there may be a path, counts as one of these:
-    ///     CHPA* in the variant of its paper (``variant="paper"``) does that, no other engine.
+    ///     no path.
     /// **wishes
     ///     Of each query: see `Grid.find`.
     ///

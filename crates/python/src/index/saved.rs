@@ -44,8 +44,7 @@ impl Index {
     /// 'astar:3:never,euclidean'
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, heuristic=None, variant=None, jump_limit=None, keep_intermediate=False, levels=None, \
-            memory=None, side=None, unstraightened=False, second=None, step=None, detour=None, smooth=None)"
+        text_signature = "($self, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
     )]
     fn with_options(&self, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let keywords = Keywords::read("with_options", options, OPTIONS)?;

@@ -99,15 +99,9 @@ if (widest) facts.push(widest.path.length, widest.distance, widest.radius);
 
 const options: Options = {
   heuristic: "hk",
-  variant: "paper",
-  jumpLimit: 3,
-  keepIntermediate: true,
   levels: "all",
   memory: "8MB",
   side: 8,
-  unstraightened: true,
-  second: "zero",
-  step: 2,
   detour: 1.5,
   smooth: "linear",
 };

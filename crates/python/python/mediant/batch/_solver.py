@@ -49,8 +49,7 @@ class Solver:
         The threads that prepare a map and answer its queries. All cores, if None.
     invalid : {"none", "raise"}
         The answer to an end that is blocked, outside its map, or null: a word in the column ``status``, or an
-        error that names the row. A query at which the engine gives up, as CHPA* in the variant of
-        its paper may, counts as invalid, too.
+        error that names the row.
     **options
         `nearest`, `tolerance`, `snap`, `max_cost`, `max_expansions`, `timeout` as for `Index.paths`, and the
         options of the engine as for `Grid.prepare`.
