@@ -11,13 +11,26 @@ use crate::{
 };
 
 /// The arguments of cargo in each step. The environment makes warnings of rustdoc errors.
-const STEPS: [&[&str]; 5] = [
+const STEPS: [&[&str]; 7] = [
     &["fmt", "--all", "--check"],
     &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
     &["doc", "--no-deps", "--workspace"],
     &["build", "--package", "mediant-moves", "--no-default-features"],
     // The workspace as a whole turns the features of `mediant-formats` on.
     &["check", "--package", "mediant-formats"],
+    // And those of `mediant`: as most users have it, and as the light module for WebAssembly does.
+    &["clippy", "--package", "mediant", "--", "-D", "warnings"],
+    &[
+        "clippy",
+        "--package",
+        "mediant",
+        "--package",
+        "mediant-web",
+        "--no-default-features",
+        "--",
+        "-D",
+        "warnings",
+    ],
 ];
 
 /// Targets whose pointers have 32 bits: a browser's, and Linux's. Tests run on the first in `.ci/run`, on

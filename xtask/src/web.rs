@@ -10,11 +10,7 @@ mod page;
 mod parts;
 mod tools;
 
-use std::{
-    fs,
-    io::Write,
-    path::{Path, PathBuf},
-};
+use std::{fs, io::Write, path::Path};
 
 use clap::Args;
 use flate2::{Compression, write::GzEncoder};
@@ -30,9 +26,32 @@ use parts::{File, write_folder};
 
 /// The crate.
 const CRATE: &str = "mediant-web";
-/// The most bytes of the module, compressed as web servers do. Worlds, scenarios, exceptions and
-/// certificates, which Rust and Python have, take 10,000 of them, the words of all parameters 7,000.
-const LARGEST: usize = 715_000;
+
+/// A module of the package.
+struct Module {
+    /// Its folder in the package.
+    folder: &'static str,
+    profile: &'static str,
+    features: &'static [&'static str],
+    /// The most bytes, compressed as web servers do, and the reason.
+    most: (usize, &'static str),
+}
+
+/// The whole one, and the light one: the engines that prepare little, and what a game needs of the rest.
+const MODULES: [Module; 2] = [
+    Module {
+        folder: "",
+        profile: "web",
+        features: &[],
+        most: (705_000, "the page is to be there within a second"),
+    },
+    Module {
+        folder: "light",
+        profile: "web-light",
+        features: &["--no-default-features"],
+        most: (245_000, "games load it before they begin"),
+    },
+];
 
 /// The options of `cargo xtask web`.
 #[derive(Args, Clone, Copy, Debug, Default)]
@@ -66,13 +85,18 @@ pub fn run(options: Options) -> Result<(), Error> {
         what: format!("the workspace has no crate {CRATE}"),
         mend: "run this in a clone of the whole project".to_owned(),
     })?;
-    let module = tools::compile(CRATE)?;
-
     let web = root().join("target/web");
-    let package = web.join("package");
-    bind(&program, &module, &web.join("bound"))?;
-    write_folder(&package, &package_files(found, &web.join("bound"))?)?;
-    report(&package)?;
+    let (package, bound) = (web.join("package"), web.join("bound"));
+    // Files of an older version would be taken for a part of the package.
+    if bound.exists() {
+        fs::remove_dir_all(&bound).map_err(Error::at(&bound))?;
+    }
+    for module in &MODULES {
+        let compiled = tools::compile(CRATE, module.profile, module.features)?;
+        bind(&program, &compiled, &bound.join(module.folder))?;
+    }
+    write_folder(&package, &package_files(found, &bound)?)?;
+    MODULES.iter().try_for_each(|module| report(&package, module))?;
     println!("The package: target/web/package");
     let Some(bundler) = bundler else { return Ok(()) };
     let version = page::write(&bundler, &web)?;
@@ -83,10 +107,6 @@ pub fn run(options: Options) -> Result<(), Error> {
 
 /// Runs `wasm-bindgen` on the compiled module.
 fn bind(program: &Path, module: &Path, out: &Path) -> Result<(), Error> {
-    // Files of an older version would be taken for a part of the package.
-    if out.exists() {
-        fs::remove_dir_all(out).map_err(Error::at(out))?;
-    }
     let mut command = std::process::Command::new(program);
     command.args(["--target", "web", "--out-name", "mediant"]);
     // Names of functions, which only a debugger reads, are a tenth of the module.
@@ -102,7 +122,9 @@ fn package_files(package: &Package, bound: &Path) -> Result<Vec<File>, Error> {
     let mut files = vec![about];
     for name in &names {
         let written = bound.join(name);
-        files.push(File::read(&if written.is_file() { written } else { folder.join(name) }, name)?);
+        // Both modules are loaded alike in Node.js.
+        let beside = folder.join(name.strip_prefix("light/").unwrap_or(name));
+        files.push(File::read(&if written.is_file() { written } else { beside }, name)?);
     }
     Ok(files)
 }
@@ -124,19 +146,21 @@ fn named(about: &[u8], version: &str) -> Result<Vec<String>, Error> {
     }
 }
 
-/// Prints what the module weighs.
-fn report(package: &Path) -> Result<(), Error> {
-    let path: PathBuf = package.join("mediant_bg.wasm");
+/// Prints what a module weighs.
+fn report(package: &Path, module: &Module) -> Result<(), Error> {
+    let path = package.join(module.folder).join("mediant_bg.wasm");
+    let name = path.strip_prefix(package).unwrap_or(&path).display().to_string();
     let bytes = fs::read(&path).map_err(Error::at(&path))?;
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
     let packed = packed.write_all(&bytes).and_then(|()| packed.finish()).map_err(Error::at(&path))?;
-    println!("mediant_bg.wasm: {} bytes, {} by gzip -9", bytes.len(), packed.len());
-    if packed.len() > LARGEST {
+    println!("{name}: {} bytes, {} by gzip -9", bytes.len(), packed.len());
+    let (limit, reason) = module.most;
+    if packed.len() > limit {
         return Err(Error::Large {
-            what: "mediant_bg.wasm, by gzip -9,".to_owned(),
+            what: format!("{name}, by gzip -9,"),
             bytes: packed.len(),
-            limit: LARGEST,
-            reason: "the page is to be there within a second",
+            limit,
+            reason,
         });
     }
     Ok(())

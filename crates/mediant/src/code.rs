@@ -179,7 +179,9 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         SetupError::Motion { .. } => ErrorCode::Motion,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
-        SetupError::Without { .. } | SetupError::NoIndex { .. } => ErrorCode::EngineWithout,
+        SetupError::Without { .. } | SetupError::NotBuilt { .. } | SetupError::NoIndex { .. } => {
+            ErrorCode::EngineWithout
+        }
     }
 }
 

@@ -69,10 +69,19 @@ names!(Engine:
 );
 
 impl Engine {
-    /// The names of the engines that satisfy a condition, separated by commas.
+    /// Whether this build has it: each one with the feature `all-engines`.
+    #[must_use]
+    pub const fn is_built(self) -> bool {
+        cfg!(feature = "all-engines")
+            || matches!(
+                self,
+                Self::AStar | Self::Dijkstra | Self::Canonical | Self::Jps | Self::JpsBlock | Self::Anya
+            )
+    }
+
+    /// The engines of this build that satisfy a condition: their names, separated by commas.
     pub(crate) fn names_where(condition: impl Fn(Self) -> bool) -> String {
-        let names: Vec<&str> =
-            Self::ALL.into_iter().filter(|&kind| condition(kind)).map(Self::name).collect();
-        names.join(", ")
+        let found = Self::ALL.into_iter().filter(|&kind| kind.is_built() && condition(kind));
+        found.map(Self::name).collect::<Vec<_>>().join(", ")
     }
 }

@@ -109,6 +109,8 @@
 //!
 //! # Features
 //!
+//! - `all-engines`, on by default: without it there are A*, Dijkstra, canonical A*, JPS, block-based JPS and
+//!   Anya.
 //! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `publications`: options that only reproduce publications.
@@ -132,6 +134,7 @@ mod configured;
 pub mod cookbook;
 mod demand;
 mod engine;
+#[cfg_attr(not(feature = "all-engines"), expect(dead_code, reason = "left out, but for their options"))]
 mod engines;
 mod erased;
 mod error;

@@ -105,7 +105,11 @@ impl From<Limits> for SearchLimits {
 
 impl From<SearchLimits> for Limits {
     fn from(limits: SearchLimits) -> Self {
-        Self { limits, ..Self::default() }
+        Self {
+            limits,
+            #[cfg(all(feature = "clock", not(target_family = "wasm")))]
+            time: None,
+        }
     }
 }
 

@@ -84,6 +84,9 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] for the first of them that it does not take.
     pub fn check(&self) -> Result<(), SetupError> {
+        if !self.engine.kind().is_built() {
+            return Err(SetupError::NotBuilt { engine: self.engine.kind() });
+        }
         self.engine.check()?;
         let (engine, k, rules) = (self.engine.kind(), self.k(), self.rules());
         let capabilities = self.capabilities();

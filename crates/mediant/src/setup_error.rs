@@ -79,6 +79,12 @@ pub enum SetupError {
         /// The rules of the setup.
         rules: Rules,
     },
+    /// An engine that this build lacks.
+    #[error("{engine} is not in this build of the library: choose {}", Engine::names_where(|_| true))]
+    NotBuilt {
+        /// The engine.
+        engine: Engine,
+    },
     /// CHPA* as published, with a limit to detours: only the complete variant has one.
     #[error(
         "{engine} as published has no limit to detours: leave out the detour, or choose the variant complete"

@@ -5,10 +5,11 @@ import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { PACKAGE } from "./places.mjs";
 
-/** Loads the package from its folder. */
-export async function load() {
-  const mediant = await import(pathToFileURL(join(PACKAGE, "mediant.js")).href);
-  await mediant.default({ module_or_path: readFileSync(join(PACKAGE, "mediant_bg.wasm")) });
+/** Loads the package from its folder, or its light module. @param {"" | "light"} [part] */
+export async function load(part = "") {
+  const folder = join(PACKAGE, part);
+  const mediant = await import(pathToFileURL(join(folder, "mediant.js")).href);
+  await mediant.default({ module_or_path: readFileSync(join(folder, "mediant_bg.wasm")) });
   return mediant;
 }
 

@@ -8,8 +8,10 @@ use wasm_bindgen::prelude::*;
 
 use crate::{
     answer::{flat, pair},
-    arguments::{point, room},
+    arguments::{Points, point, positive, room},
+    errors::raised_for,
     memory,
+    space::Space,
 };
 
 /// The distance of every vertex to the nearest source, with the paths and directions to it: one goal for many
@@ -101,5 +103,33 @@ impl Field {
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {
         Self { inner: Rc::clone(&self.inner) }
+    }
+}
+
+#[wasm_bindgen]
+impl Space {
+    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
+    /// at exactly that distance is in the field.
+    ///
+    /// ```js
+    /// const field = space.field([0, 0]);
+    /// field.get([3, 0]); // 3
+    /// ```
+    ///
+    /// @throws MediantError `start-blocked`, `start-outside` for a source that is blocked or outside the map.
+    pub fn field(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Points")] sources: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "number")] limit: &JsValue,
+    ) -> Result<Field, JsValue> {
+        let sources = Points::read("sources", sources)?;
+        self.check_room("the field", memory::FIELD)?;
+        let sources = sources.as_slice().iter().copied();
+        let field = if limit.is_undefined() || limit.is_null() {
+            self.inner.field(sources)
+        } else {
+            self.inner.field_within(sources, positive("limit", limit)?)
+        };
+        Ok(Field::new(field.map_err(|error| raised_for("source", error))?))
     }
 }

@@ -1,17 +1,9 @@
 //! Indexes: the preparation of an engine.
 
-use js_sys::Uint8Array;
 use mediant::{Change, Index as Inner, files::WorldFrame, options::Levels};
 use wasm_bindgen::prelude::*;
 
-use crate::{
-    arguments::{Points, object},
-    errors::raised,
-    goals::Goals,
-    memory,
-    planner::Planner,
-    space::Space,
-};
+use crate::{arguments::object, errors::raised, memory, planner::Planner, space::Space};
 
 /// The preparation of an engine in a space: `Space.prepare`, `Space.load` and `repair` make it. It never
 /// changes; any number of planners share it.
@@ -106,24 +98,6 @@ impl Index {
         Ok(Planner::new(self.inner.try_planner().map_err(raised)?))
     }
 
-    /// Prepares goals that many starts ask for. With hub labels this takes about two queries for each
-    /// goal, and each start then far less than a query for each goal; on other indexes it takes as long.
-    ///
-    /// ```js
-    /// const hotels = index.goals([[9, 0], [0, 9], [3, 4]]);
-    /// const distances = index.planner().distances([0, 0], hotels);
-    /// ```
-    ///
-    /// @throws MediantError `goal-blocked`, `goal-outside` for the first goal that is blocked or outside the
-    /// map.
-    pub fn goals(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Points")] goals: &JsValue,
-    ) -> Result<Goals, JsValue> {
-        let goals = Points::read("goals", goals)?.into_vec();
-        Ok(Goals { inner: self.inner.goals(goals).map_err(raised)? })
-    }
-
     /// The index for a changed map of the same rules and k, which gives the same answers as one prepared
     /// anew. Clusters and segments are repaired where the maps differ; what other engines prepare is prepared
     /// anew. This index stays as it is.
@@ -137,13 +111,5 @@ impl Index {
         space.check_room("the index", memory::INDEX)?;
         let change = Change::between(self.inner.space(), &space.inner).map_err(raised)?;
         Ok(Self { inner: self.inner.repair(&change).map_err(raised)?, world: space.world })
-    }
-
-    /// The index as bytes, for `Space.load`.
-    ///
-    /// @throws MediantError `engine-without` for an engine whose index is not saved.
-    #[wasm_bindgen(js_name = toBytes)]
-    pub fn to_bytes(&self) -> Result<Uint8Array, JsValue> {
-        Ok(Uint8Array::from(&self.inner.to_bytes().map_err(raised)?[..]))
     }
 }

@@ -3,8 +3,9 @@
 //!
 //! - `arguments`: what a call was given: points, numbers, bytes, objects of our classes; `keywords`: objects
 //!   of motion, wishes and options. Each mistake names its argument.
-//! - `grid`, `space`, `index`, `goals`, `planner`, `trace` with `posthoc`, `field`, `picture`, `world`,
-//!   `scenario`: the classes; `module`: what needs no map.
+//! - `grid`, `space`, `index`, `planner`, `trace`: the classes; `module`: functions that need no map.
+//! - `agents`, `exceptions`, `field`, `goals`, `picture`, `posthoc`, `saved`, `scenario`, `world`: with the
+//!   feature `full` further classes, and methods of those above.
 //! - `answer`: what goes out; `types`: the types of plain objects, for `mediant.d.ts`.
 //! - `errors`: the library's errors as those of JavaScript; `memory`: whether there is room.
 //! - `clock`: the time, which the library does not read.
@@ -30,34 +31,45 @@
 //! There are none: a page that must not wait loads the package in a worker. The library's feature `parallel`
 //! is off, and an index goes from worker to worker as bytes.
 
+#![cfg_attr(not(feature = "full"), expect(dead_code, reason = "what the other modules share"))]
+
+#[cfg(feature = "full")]
+mod agents;
 mod answer;
 mod arguments;
 mod clock;
 mod errors;
+#[cfg(feature = "full")]
+mod exceptions;
+#[cfg(feature = "full")]
 mod field;
+#[cfg(feature = "full")]
 mod goals;
 mod grid;
 mod index;
 mod keywords;
 mod memory;
 mod module;
+#[cfg(feature = "full")]
 mod picture;
 mod planner;
+#[cfg(feature = "full")]
 mod posthoc;
+#[cfg(feature = "full")]
+mod saved;
+#[cfg(feature = "full")]
 mod scenario;
 mod space;
 mod trace;
 mod types;
+#[cfg(feature = "full")]
 mod world;
 
-pub use field::Field;
-pub use goals::Goals;
 pub use grid::Grid;
 pub use index::Index;
 pub use module::{bound, check_setup, engines, moves, spaced, version};
-pub use picture::Picture;
 pub use planner::Planner;
-pub use scenario::Scenario;
 pub use space::Space;
 pub use trace::Trace;
-pub use world::World;
+#[cfg(feature = "full")]
+pub use {field::Field, goals::Goals, picture::Picture, scenario::Scenario, world::World};

@@ -69,10 +69,10 @@ pub fn spaced(
     Ok(Float64Array::from(&flat[..]))
 }
 
-/// All engines, with what each can do.
+/// All engines of this module, with what each can do.
 #[wasm_bindgen]
 pub fn engines() -> JsEngines {
-    let all: Array = Engine::ALL.into_iter().map(info).collect();
+    let all: Array = Engine::ALL.into_iter().filter(|engine| engine.is_built()).map(info).collect();
     all.unchecked_into()
 }
 

@@ -5,20 +5,15 @@ use std::{
     rc::Rc,
 };
 
-use js_sys::{Float64Array, Int32Array};
-use mediant::{
-    Answer, Ends, Error, Exceptions, Guarantee, Planner as Inner, Space, Stopped, errors::QueryError,
-};
+use js_sys::Int32Array;
+use mediant::{Answer, Ends, Planner as Inner, Space, errors::QueryError};
 use wasm_bindgen::prelude::*;
 
 use crate::{
-    answer::{flat, object_of, told},
-    arguments::{Points, flag, integer, object, point},
+    answer::{flat, told},
+    arguments::{Points, integer, object, point},
     errors::{argument, raised},
-    goals::Goals,
-    keywords::{Keywords, WISHES, entries, unknown_key},
-    memory,
-    space::vertices,
+    keywords::{Keywords, WISHES},
     trace::Trace,
     types::JsAnswer,
 };
@@ -40,8 +35,8 @@ pub struct Planner {
 }
 
 /// A planner, with its last answer.
-struct State {
-    inner: Inner,
+pub(crate) struct State {
+    pub(crate) inner: Inner,
     last: Option<Answer>,
 }
 
@@ -65,7 +60,7 @@ impl Planner {
     }
 
     /// The planner, to be asked something else than it was asked last, which it forgets.
-    fn idle(&self) -> Result<RefMut<'_, State>, JsValue> {
+    pub(crate) fn idle(&self) -> Result<RefMut<'_, State>, JsValue> {
         let mut state = self.state()?;
         state.last = None;
         Ok(state)
@@ -101,33 +96,12 @@ impl State {
     }
 }
 
-/// The goals of an argument.
-fn goals_of(goals: &JsValue) -> Result<Goals, JsValue> {
-    object("goals", "Goals", goals)
-}
-
 /// The trace of an argument that may be left out.
 fn trace_of(trace: &JsValue) -> Result<Option<Trace>, JsValue> {
     if trace.is_undefined() || trace.is_null() {
         return Ok(None);
     }
     object("trace", "Trace", trace).map(Some)
-}
-
-/// The cells of an argument that count otherwise.
-fn exceptions_of(given: &JsValue) -> Result<Exceptions, JsValue> {
-    let (mut blocked, mut free, mut free_ends) = (Vec::new(), Vec::new(), false);
-    for (key, value) in entries("exceptions", given)? {
-        match key.as_str() {
-            "blocked" | "free" | "freeEnds" if value.is_undefined() => {}
-            "blocked" => blocked = Points::read(&key, &value)?.into_vec(),
-            "free" => free = Points::read(&key, &value)?.into_vec(),
-            "freeEnds" => free_ends = flag(&key, &value)?,
-            _ => return Err(unknown_key("exceptions", &key, "blocked, free, freeEnds")),
-        }
-    }
-    let exceptions = Exceptions::new().blocked(blocked).free(free);
-    Ok(if free_ends { exceptions.free_ends() } else { exceptions })
 }
 
 #[wasm_bindgen]
@@ -159,44 +133,6 @@ impl Planner {
         state.answered(answer)
     }
 
-    /// Answers a query for which some cells count otherwise than on the map: as `find` does on the map with
-    /// these cells edited, on an index that was prepared anew. Nothing that was prepared is used where a cell
-    /// differs: an engine that prepares much is replaced by one that prepares next to nothing.
-    ///
-    /// ```js
-    /// planner.findExcept([3, 1], [0, 1], { freeEnds: true, blocked: [[1, 1]] });
-    /// ```
-    ///
-    /// @throws MediantError as `find`, and `edit-outside` for a cell outside the map.
-    #[wasm_bindgen(js_name = findExcept)]
-    pub fn find_except(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Points")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Exceptions")] exceptions: &JsValue,
-        #[wasm_bindgen(unchecked_optional_param_type = "Wishes")] wishes: &JsValue,
-    ) -> Result<JsAnswer, JsValue> {
-        let keywords = Keywords::read("wishes", wishes, WISHES)?;
-        let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
-        let exceptions = exceptions_of(exceptions)?;
-        let mut state = self.idle()?;
-        let inner = &mut state.inner;
-        let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
-        memory::check("the search", vertices(inner.index().space().map()), bytes)?;
-        let (query, rules) = (keywords.query(&start, &goal), inner.index().setup().rules());
-        let mut other = match inner.except(&query, &exceptions) {
-            Err(Error::Stopped { by, .. }) => {
-                let start = start.as_slice().first().copied().unwrap_or_default();
-                let answer = Answer::Stopped(Stopped::before_search(by, start));
-                return Ok(told(&answer, (Guarantee::Suboptimal, rules)));
-            }
-            other => other.map_err(raised)?,
-        };
-        let planner = other.as_mut().unwrap_or(inner);
-        let answer = planner.find(query).map_err(raised)?;
-        Ok(told(&answer, (planner.guarantee(), rules)))
-    }
-
     /// The length in cells of the path that `find` finds; `Infinity` if there is none. Hub labels measure
     /// without the path: the length may differ from that of the path by a factor of 1 + 2^-31.
     ///
@@ -208,38 +144,6 @@ impl Planner {
     ) -> Result<f64, JsValue> {
         let ends = Ends::new(point("start", start)?, point("goal", goal)?);
         Ok(self.idle()?.inner.distance(ends).map_err(raised)?.unwrap_or(f64::INFINITY))
-    }
-
-    /// The lengths in cells of the paths to each of many goals, in their order; `Infinity` where none leads.
-    /// With hub labels they are found together, in far less time than a query for each takes.
-    ///
-    /// @throws MediantError as `find`; `mismatch` for goals of another map or motion.
-    pub fn distances(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Goals")] goals: &JsValue,
-    ) -> Result<Float64Array, JsValue> {
-        let (start, goals) = (point("start", start)?, goals_of(goals)?);
-        let distances = self.idle()?.inner.distances(start, &goals.inner).map_err(raised)?;
-        Ok(Float64Array::from(&distances[..]))
-    }
-
-    /// The goal to which the path is shortest, by its number, with hub labels the first of several; undefined
-    /// if there is no way to any. With hub labels this takes one to two queries, also for a thousand
-    /// goals.
-    ///
-    /// @throws MediantError as `distances`.
-    #[wasm_bindgen(unchecked_return_type = "NearestGoal | undefined")]
-    pub fn nearest(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Goals")] goals: &JsValue,
-    ) -> Result<JsValue, JsValue> {
-        let (start, goals) = (point("start", start)?, goals_of(goals)?);
-        let nearest = self.idle()?.inner.nearest(start, &goals.inner).map_err(raised)?;
-        Ok(nearest.map_or(JsValue::UNDEFINED, |(goal, distance)| {
-            object_of([("goal", Some((goal as u32).into())), ("distance", Some(distance.into()))])
-        }))
     }
 
     /// Begins a search, and forgets the last one. Nothing is expanded yet.

@@ -10,9 +10,8 @@ use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer,
-    arguments::{Points, bytes, path_points, point, positive},
-    errors::{broken, raised, raised_for, wrong_type},
-    field::Field,
+    arguments::{path_points, point},
+    errors::{broken, raised, wrong_type},
     grid::{Edit, Grid},
     index::Index,
     keywords::{Keywords, OPTIONS},
@@ -201,72 +200,6 @@ impl Space {
         listening.end()?;
         let inner = index.map_err(raised)?.with_smoothing(setup.smoothing);
         Ok(Index { inner, world: self.world })
-    }
-
-    /// The index of bytes that `Index.toBytes` gave for the same map and motion.
-    ///
-    /// @throws MediantError `mismatch` for the index of another map or motion, `index-damaged` and
-    /// `index-engine` for bytes that are no whole index, or one of another version.
-    pub fn load(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Uint8Array")] index: &JsValue,
-        #[wasm_bindgen(unchecked_optional_param_type = "Options")] options: &JsValue,
-    ) -> Result<Index, JsValue> {
-        let keywords = Keywords::read("options", options, OPTIONS)?;
-        let index = self.inner.index_from_bytes(bytes("bytes", index)?).map_err(raised)?;
-        let call = keywords.call;
-        let index = if call.has_options() { index.with_call(&call).map_err(raised)? } else { index };
-        Ok(Index { inner: index, world: self.world })
-    }
-
-    /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
-    /// at exactly that distance is in the field.
-    ///
-    /// ```js
-    /// const field = space.field([0, 0]);
-    /// field.get([3, 0]); // 3
-    /// ```
-    ///
-    /// @throws MediantError `start-blocked`, `start-outside` for a source that is blocked or outside the map.
-    pub fn field(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Points")] sources: &JsValue,
-        #[wasm_bindgen(unchecked_optional_param_type = "number")] limit: &JsValue,
-    ) -> Result<Field, JsValue> {
-        let sources = Points::read("sources", sources)?;
-        self.check_room("the field", memory::FIELD)?;
-        let sources = sources.as_slice().iter().copied();
-        let field = if limit.is_undefined() || limit.is_null() {
-            self.inner.field(sources)
-        } else {
-            self.inner.field_within(sources, positive("limit", limit)?)
-        };
-        Ok(Field::new(field.map_err(|error| raised_for("source", error))?))
-    }
-
-    /// Of all paths whose length is at most (1 + `surplus`) times that of the shortest, one that keeps off
-    /// walls farthest, measured where it comes nearest to one; undefined if there is no path. A surplus of
-    /// 0.1 allows 10 % more.
-    ///
-    /// @throws MediantError as `Planner.find`.
-    #[wasm_bindgen(js_name = widestPath, unchecked_return_type = "WidestPath | undefined")]
-    pub fn widest_path(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "number")] surplus: &JsValue,
-    ) -> Result<JsValue, JsValue> {
-        let (start, goal) = (point("start", start)?, point("goal", goal)?);
-        let surplus = positive("surplus", surplus)?;
-        self.check_room("the path", memory::SPACE + memory::PLANNER)?;
-        let widest = self.inner.widest_path(start, goal, surplus).map_err(raised)?;
-        Ok(widest.map_or(JsValue::UNDEFINED, |widest| {
-            answer::object_of([
-                ("path", Some(answer::flat(&widest.path).into())),
-                ("distance", Some(widest.path.cost().into())),
-                ("radius", Some(widest.radius.into())),
-            ])
-        }))
     }
 
     /// A second handle to the same space, for arguments of calls.

@@ -9,8 +9,9 @@ use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
     answer::pair,
-    arguments::{Points, integer_32, number, word},
+    arguments::{Points, integer_32, number, object, word},
     errors::{argument, raised, wrong_type},
+    grid::Grid,
 };
 
 /// Where a map is in the world, as a ROS map states it: between cells, with y down, and meters, with y up.
@@ -134,4 +135,38 @@ fn place(origin: &JsValue) -> Result<[f64; 3], JsValue> {
 
 fn kind(value: &JsValue) -> Result<PlacementKind, JsValue> {
     if value.is_undefined() { Ok(PlacementKind::Center) } else { word("placement", value) }
+}
+
+#[wasm_bindgen]
+impl Grid {
+    /// Where the map is in the world, if it is a ROS map or was told by `withWorld`.
+    #[wasm_bindgen(getter)]
+    pub fn world(&self) -> Option<World> {
+        self.world.map(|frame| World { frame })
+    }
+
+    /// This map with another place in the world; without one if it is left out. Edits and maps of agents keep
+    /// it.
+    ///
+    /// @throws MediantError `argument` for the place of a map of another size.
+    #[wasm_bindgen(js_name = withWorld)]
+    pub fn with_world(
+        &self,
+        #[wasm_bindgen(unchecked_optional_param_type = "World")] world: &JsValue,
+    ) -> Result<Self, JsValue> {
+        if world.is_undefined() || world.is_null() {
+            return Ok(Self::new(self.map.clone()));
+        }
+        let World { frame } = object("world", "World", world)?;
+        let (width, height) = (self.map.width(), self.map.height());
+        if (frame.width(), frame.height()) != (width, height) {
+            let text = format!(
+                "expected that of a map of {width} × {height} cells, found one of {} × {}",
+                frame.width(),
+                frame.height()
+            );
+            return Err(argument("world", &text));
+        }
+        Ok(Self { map: self.map.clone(), world: Some(frame) })
+    }
 }

@@ -13,8 +13,6 @@ use serde_json::Value;
 use crate::{Error, ci::step, project};
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// The profile for what is downloaded.
-const PROFILE: &str = "web";
 
 /// Installs the standard library for WebAssembly, unless it is there.
 pub(super) fn provide_target() -> Result<(), Error> {
@@ -137,9 +135,11 @@ fn install(tools: &Path, version: &str) {
     }
 }
 
-/// Compiles the crate to WebAssembly, and returns the module.
-pub(super) fn compile(package: &str) -> Result<PathBuf, Error> {
-    let arguments = ["build", "--package", package, "--lib", "--target", TARGET, "--profile", PROFILE];
+/// Compiles the crate to WebAssembly by a profile, and returns the module.
+pub(super) fn compile(package: &str, profile: &str, features: &[&str]) -> Result<PathBuf, Error> {
+    let mut arguments =
+        vec!["build", "--package", package, "--lib", "--target", TARGET, "--profile", profile];
+    arguments.extend(features);
     let shown = format!("cargo {}", arguments.join(" "));
     println!("$ {shown}");
     let mut cargo = project::cargo();

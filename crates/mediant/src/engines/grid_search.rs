@@ -5,7 +5,9 @@ use std::sync::Arc;
 use mediant_grid::{GridGraph, Placement};
 #[cfg(feature = "publications")]
 use mediant_search::SquaredEuclidean;
-use mediant_search::{AStar, Euclidean, Hk, Wavefront, Zero, parts::NodeStore};
+use mediant_search::{AStar, parts::NodeStore};
+#[cfg(feature = "all-engines")]
+use mediant_search::{Euclidean, Hk, Wavefront, Zero};
 
 use super::{Boxed, EngineIndex, boxed, with_options};
 use crate::{
@@ -16,6 +18,8 @@ use crate::{
         slot::{Options, Slot},
     },
 };
+#[cfg(not(feature = "all-engines"))]
+use crate::{engine::Engine, heuristic::Admissible};
 
 /// Options of a search that takes only a heuristic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -40,6 +44,7 @@ pub(super) struct GridSearchIndex<P: Placement> {
 enum GridSearch {
     AStar(HeuristicName),
     Dijkstra,
+    #[cfg(feature = "all-engines")]
     Wavefront,
 }
 
@@ -52,6 +57,7 @@ impl<P: Placement> GridSearchIndex<P> {
         Self::new(graph, GridSearch::Dijkstra)
     }
 
+    #[cfg(feature = "all-engines")]
     pub(super) fn wavefront(graph: &Arc<GridGraph<P>>) -> Result<Self, Error> {
         Self::new(graph, GridSearch::Wavefront)
     }
@@ -59,24 +65,41 @@ impl<P: Placement> GridSearchIndex<P> {
     fn new(graph: &Arc<GridGraph<P>>, engine: GridSearch) -> Result<Self, Error> {
         Ok(Self { graph: Arc::clone(graph), engine })
     }
+
+    /// A*, compiled for each heuristic.
+    #[cfg(feature = "all-engines")]
+    fn by_heuristic(&self, name: HeuristicName) -> Result<Boxed, Error> {
+        let graph = Arc::clone(&self.graph);
+        Ok(match name {
+            HeuristicName::Hk => boxed(AStar::new(graph, Hk)),
+            HeuristicName::Euclidean => boxed(AStar::new(graph, Euclidean)),
+            HeuristicName::Zero => boxed(AStar::new(graph, Zero)),
+            #[cfg(feature = "publications")]
+            HeuristicName::SquaredEuclidean => boxed(AStar::new(graph, SquaredEuclidean)),
+        })
+    }
+
+    /// A*, compiled once: a module for WebAssembly is 6 kB smaller as it travels.
+    #[cfg(not(feature = "all-engines"))]
+    fn by_heuristic(&self, name: HeuristicName) -> Result<Boxed, Error> {
+        Ok(boxed(AStar::new(Arc::clone(&self.graph), Admissible::new(Engine::AStar, Some(name))?)))
+    }
 }
 
 impl<P: Placement> EngineIndex for GridSearchIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
-        let graph = Arc::clone(&self.graph);
-        Ok(match self.engine {
-            GridSearch::AStar(HeuristicName::Hk) => boxed(AStar::new(graph, Hk)),
-            GridSearch::AStar(HeuristicName::Euclidean) => boxed(AStar::new(graph, Euclidean)),
-            #[cfg(feature = "publications")]
-            GridSearch::AStar(HeuristicName::SquaredEuclidean) => boxed(AStar::new(graph, SquaredEuclidean)),
-            GridSearch::AStar(HeuristicName::Zero) | GridSearch::Dijkstra => boxed(AStar::new(graph, Zero)),
-            GridSearch::Wavefront => boxed(Wavefront::new(graph)),
-        })
+        match self.engine {
+            GridSearch::AStar(name) => self.by_heuristic(name),
+            GridSearch::Dijkstra => self.by_heuristic(HeuristicName::Zero),
+            #[cfg(feature = "all-engines")]
+            GridSearch::Wavefront => Ok(boxed(Wavefront::new(Arc::clone(&self.graph)))),
+        }
     }
 
     fn scratch_bytes(&self) -> usize {
         match self.engine {
             GridSearch::AStar(_) | GridSearch::Dijkstra => NodeStore::<()>::bytes(self.graph.vertex_count()),
+            #[cfg(feature = "all-engines")]
             GridSearch::Wavefront => Wavefront::scratch_bytes(&*self.graph),
         }
     }
@@ -85,6 +108,7 @@ impl<P: Placement> EngineIndex for GridSearchIndex<P> {
         with_options(match (self.engine, engine) {
             (GridSearch::AStar(_), ConfiguredEngine::AStar(own)) => Self::a_star(&self.graph, own),
             (GridSearch::Dijkstra, ConfiguredEngine::Dijkstra) => Self::dijkstra(&self.graph),
+            #[cfg(feature = "all-engines")]
             (GridSearch::Wavefront, ConfiguredEngine::Wavefront) => Self::wavefront(&self.graph),
             _ => return Ok(None),
         })

@@ -1,5 +1,7 @@
 //! The engines: a module for each family prepares an index and makes the searches on it, behind one trait.
 //!
+//! Without the feature `all-engines` only the options of most of them are compiled.
+//!
 //! How often a search is compiled decides how long the crate takes to build. So only A* is compiled for every
 //! heuristic; the other engines are compiled for one type, [`Admissible`](crate::heuristic::Admissible), that
 //! tells heuristics apart at run time.
@@ -18,18 +20,21 @@ mod theta;
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{Centers, Corners, Interrupt, Interrupted};
+#[cfg(feature = "all-engines")]
+use mediant_grid::Centers;
+use mediant_grid::{Corners, Interrupt, Interrupted};
 use mediant_search::Planner as Search;
 
 pub(crate) use self::source::Source;
-use self::{
-    anya::AnyaIndex, canonical::CanonicalIndex, clusters::ClusterIndex, grid_search::GridSearchIndex,
-    jumps::JumpIndex, segments::SegmentIndex, subgoal_theta::SubgoalThetaIndex, subgoals::SubgoalIndex,
-    theta::ThetaIndex,
-};
+use self::{anya::AnyaIndex, canonical::CanonicalIndex, grid_search::GridSearchIndex, jumps::JumpIndex};
 pub use self::{
     canonical::CanonicalOptions, clusters::HpaOptions, grid_search::GuidedOptions, jps_plus::JpsPlusOptions,
     jumps::JumpOptions, segments::ChpaOptions, subgoal_theta::SubgoalThetaOptions, subgoals::SubgoalOptions,
+};
+#[cfg(feature = "all-engines")]
+use self::{
+    clusters::ClusterIndex, segments::SegmentIndex, subgoal_theta::SubgoalThetaIndex, subgoals::SubgoalIndex,
+    theta::ThetaIndex,
 };
 use crate::{
     change::Change,
@@ -148,23 +153,33 @@ pub(crate) fn prepare(
     match setup.engine {
         E::AStar(own) => either!(layers => GridSearchIndex::a_star(layers.graph(k?)?, own)),
         E::Dijkstra => either!(layers => GridSearchIndex::dijkstra(layers.graph(k?)?)),
+        #[cfg(feature = "all-engines")]
         E::Wavefront => either!(layers => GridSearchIndex::wavefront(layers.graph(k?)?)),
         E::Canonical(own) => either!(layers => CanonicalIndex::new(layers.graph(k?)?, own, source)),
         E::Jps(own) => either!(layers => JumpIndex::stepwise(layers.graph(k?)?, own, source)),
         E::JpsBlock(own) => either!(layers => JumpIndex::by_blocks(layers.graph(k?)?, own, source)),
+        #[cfg(feature = "all-engines")]
         E::JpsPlus(own) => either!(layers => JumpIndex::by_table(layers.graph(k?)?, own, source)),
+        #[cfg(feature = "all-engines")]
         E::Theta(own) => either!(layers => ThetaIndex::new(layers.graph(k?)?, own)),
+        #[cfg(feature = "all-engines")]
         E::LazyTheta(own) => either!(layers => ThetaIndex::lazy(layers.graph(k?)?, own)),
         E::Anya => shared(AnyaIndex::new(&Corners::layers(space, engine)?.free, setup.k(), source)),
+        #[cfg(feature = "all-engines")]
         E::Subgoal(own) => either!(layers => {
             let substitute = |setup, source: Source<'_>| prepare(setup, space, source);
             SubgoalIndex::new(own, setup.motion, &layers.free, (source, None), substitute)
         }),
+        #[cfg(feature = "all-engines")]
         E::SubgoalTheta(own) => {
             shared(SubgoalThetaIndex::new(own, setup.k(), &Corners::layers(space, engine)?.free, source))
         }
+        #[cfg(feature = "all-engines")]
         E::Hpa(own) => shared(ClusterIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
+        #[cfg(feature = "all-engines")]
         E::Chpa(own) => shared(SegmentIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
+        #[cfg(not(feature = "all-engines"))]
+        _ => Err(SetupError::NotBuilt { engine }.into()),
     }
 }
 

@@ -1,19 +1,19 @@
 //! Maps.
 
-mod agents;
 mod queries;
+#[cfg(feature = "full")]
 mod reading;
+mod tiles;
 
 use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
 use mediant::{Map, Rectangle, errors::NO_COSTS, files::WorldFrame, grid::Grid as Bits};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::{
-    arguments::{Points, bytes, flag, integer, integer_32, object, room, text},
+    arguments::{Points, bytes, flag, integer, integer_32, room, text},
     errors::{argument, raised, wrong_type},
     keywords::{Keywords, MOTION},
     space::Space,
-    world::World,
 };
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is in column x from the left and row y from
@@ -37,7 +37,7 @@ impl Grid {
     }
 
     /// Another map at the same place in the world.
-    fn instead(&self, map: Map) -> Self {
+    pub(crate) fn instead(&self, map: Map) -> Self {
         Self { map, world: self.world }
     }
 }
@@ -79,7 +79,7 @@ impl Grid {
         for index in 0..array.length() {
             rows.push(text("rows", expected, &js_sys::Reflect::get_u32(array, index)?)?);
         }
-        Ok(Self::new(Map::from_rows_with(rows, &reading::tile_options(options)?).map_err(raised)?))
+        Ok(Self::new(Map::from_rows_with(rows, &tiles::tile_options(options)?).map_err(raised)?))
     }
 
     /// The number of columns.
@@ -98,37 +98,6 @@ impl Grid {
     #[wasm_bindgen(getter)]
     pub fn id(&self) -> String {
         self.map.id().to_string()
-    }
-
-    /// Where the map is in the world, if it is a ROS map or was told by `withWorld`.
-    #[wasm_bindgen(getter)]
-    pub fn world(&self) -> Option<World> {
-        self.world.map(|frame| World { frame })
-    }
-
-    /// This map with another place in the world; without one if it is left out. Edits and maps of agents keep
-    /// it.
-    ///
-    /// @throws MediantError `argument` for the place of a map of another size.
-    #[wasm_bindgen(js_name = withWorld)]
-    pub fn with_world(
-        &self,
-        #[wasm_bindgen(unchecked_optional_param_type = "World")] world: &JsValue,
-    ) -> Result<Self, JsValue> {
-        if world.is_undefined() || world.is_null() {
-            return Ok(Self::new(self.map.clone()));
-        }
-        let World { frame } = object("world", "World", world)?;
-        let (width, height) = (self.map.width(), self.map.height());
-        if (frame.width(), frame.height()) != (width, height) {
-            let text = format!(
-                "expected that of a map of {width} × {height} cells, found one of {} × {}",
-                frame.width(),
-                frame.height()
-            );
-            return Err(argument("world", &text));
-        }
-        Ok(Self { map: self.map.clone(), world: Some(frame) })
     }
 
     /// The cells, row by row; 1 is blocked.

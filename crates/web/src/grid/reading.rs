@@ -6,12 +6,15 @@ use js_sys::{Array, Uint8Array};
 use mediant::{
     Error, ErrorCode, Map,
     errors::ReadError,
-    files::{Fraction, MapOptions, RosVersion, Tiles},
+    files::{Fraction, MapOptions, RosVersion},
 };
 use mediant_formats::MapFile;
 use wasm_bindgen::{JsCast, prelude::*};
 
-use super::Grid;
+use super::{
+    Grid,
+    tiles::{TILES, tiles},
+};
 use crate::{
     arguments::{bytes, flag, number, text, word},
     errors::{argument, coded, raised, wrong_type},
@@ -153,25 +156,4 @@ fn map_options(given: &JsValue) -> Result<MapOptions, JsValue> {
     }
     options.tiles = tiles(free.as_deref(), blocked.as_deref())?;
     Ok(options)
-}
-
-const TILES: &str = "a text of characters";
-
-/// The characters of free and of blocked cells, from the options of `fromRows`.
-pub(super) fn tile_options(given: &JsValue) -> Result<Tiles, JsValue> {
-    let (mut free, mut blocked) = (None, None);
-    for (key, value) in entries("options", given)? {
-        match key.as_str() {
-            "free" | "blocked" if value.is_undefined() => {}
-            "free" => free = Some(text(&key, TILES, &value)?),
-            "blocked" => blocked = Some(text(&key, TILES, &value)?),
-            _ => return Err(unknown_key("options", &key, "free, blocked")),
-        }
-    }
-    tiles(free.as_deref(), blocked.as_deref())
-}
-
-fn tiles(free: Option<&str>, blocked: Option<&str>) -> Result<Tiles, JsValue> {
-    let name = if free.is_some() { "free" } else { "blocked" };
-    Tiles::new(free, blocked).map_err(|wrong| argument(name, &wrong.to_string()))
 }

@@ -1,4 +1,4 @@
-//! Agents of a size.
+//! Agents of a size, and paths that keep off obstacles.
 
 use js_sys::Float64Array;
 use mediant::{
@@ -7,11 +7,14 @@ use mediant::{
 };
 use wasm_bindgen::prelude::*;
 
-use super::Grid;
 use crate::{
-    arguments::{integer_32, positive, room},
+    answer,
+    arguments::{integer_32, point, positive, room},
     errors::{argument, raised},
+    grid::Grid,
     keywords::{Keywords, MOTION, entries, unknown_key},
+    memory,
+    space::Space,
 };
 
 #[wasm_bindgen]
@@ -84,5 +87,33 @@ impl Grid {
             }
             (None, _) => Err(argument("radius", "give it in cells, or as { meters }")),
         }
+    }
+}
+
+#[wasm_bindgen]
+impl Space {
+    /// Of all paths whose length is at most (1 + `surplus`) times that of the shortest, one that keeps off
+    /// walls farthest, measured where it comes nearest to one; undefined if there is no path. A surplus of
+    /// 0.1 allows 10 % more.
+    ///
+    /// @throws MediantError as `Planner.find`.
+    #[wasm_bindgen(js_name = widestPath, unchecked_return_type = "WidestPath | undefined")]
+    pub fn widest_path(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] surplus: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let (start, goal) = (point("start", start)?, point("goal", goal)?);
+        let surplus = positive("surplus", surplus)?;
+        self.check_room("the path", memory::SPACE + memory::PLANNER)?;
+        let widest = self.inner.widest_path(start, goal, surplus).map_err(raised)?;
+        Ok(widest.map_or(JsValue::UNDEFINED, |widest| {
+            answer::object_of([
+                ("path", Some(answer::flat(&widest.path).into())),
+                ("distance", Some(widest.path.cost().into())),
+                ("radius", Some(widest.radius.into())),
+            ])
+        }))
     }
 }
