@@ -61,6 +61,7 @@ pub mod names;
 mod obstruction;
 mod per_motion;
 mod placement;
+mod point;
 #[cfg(doctest)]
 mod readme;
 mod rectangle;
@@ -96,6 +97,7 @@ pub use obstruction::Obstruction;
 #[doc(hidden)]
 pub use per_motion::{PerMotion, cost_table};
 pub use placement::{Centers, Corners, Placement, SweptCells};
+pub use point::Point;
 pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]

@@ -115,7 +115,7 @@
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `publications`: options that only reproduce publications.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
-//! - `serde`: vertices, rectangles, motion, queries, paths and setups are read and written.
+//! - `serde`: vertices, points, rectangles, motion, ends, paths and setups are read and written.
 //! - `trace`: searches are written for the Posthoc visualizer, by `Tracer`.
 //!
 //! # What is not here
@@ -187,7 +187,7 @@ pub use limits::Limits;
 pub use map::Map;
 #[doc(hidden)]
 pub use mediant_grid::names;
-pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rectangle, Rules, Vertex};
+pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Point, Rectangle, Rules, Vertex};
 /// The mathematics of the neighborhoods: moves, h_k, bounds.
 pub use mediant_moves as moves;
 pub use mediant_moves::{Cost, FiniteK, K};

@@ -46,7 +46,7 @@ pub(crate) fn spaced<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (py, path) = (path.py(), Path::new(path_points("path", path)?));
     let spacing = number("spacing", spacing)?;
-    let points = path.points(spacing).map_err(|error| argument("spacing", &error.to_string()))?;
+    let points = path.spaced(spacing).map_err(|error| argument("spacing", &error.to_string()))?;
     let count = path.cost() / spacing;
     if count > MOST_POINTS {
         return Err(argument("spacing", &format!("{count:e} points: at most 2^30 fit; give a larger one")));

@@ -60,7 +60,7 @@ pub fn spaced(
     #[wasm_bindgen(unchecked_param_type = "number")] spacing: &JsValue,
 ) -> Result<Float64Array, JsValue> {
     let (path, spacing) = (Path::new(path_points("path", path)?), number("spacing", spacing)?);
-    let points = path.points(spacing).map_err(|error| coded(ErrorCode::Number, &error.to_string()))?;
+    let points = path.spaced(spacing).map_err(|error| coded(ErrorCode::Number, &error.to_string()))?;
     // It saturates.
     let most = ((path.cost() / spacing) as u64).saturating_add(3);
     memory::check("the points", most, 16)?;

@@ -10,7 +10,7 @@ use std::{
 };
 
 use mediant::{
-    CornerRule, DiagonalGap, Engine, K, Path, PlacementKind, Rules, Smoothing, Vertex,
+    CornerRule, DiagonalGap, Engine, K, Path, PlacementKind, Point, Rules, Smoothing, Vertex,
     call::Wishes,
     files::WorldFrame,
     options::{EngineName, EngineOption, Levels, OptionValue, ValueKind},
@@ -297,7 +297,7 @@ struct QueryLine<'a> {
     /// The waypoints, of a stopped search those of the best path so far; empty without a path; not with
     /// `--distance`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    path: Option<Vec<[i32; 2]>>,
+    path: Option<Vec<Point>>,
     /// The waypoints in the world, in meters; only with `--world`.
     #[serde(skip_serializing_if = "Option::is_none")]
     world: Option<Vec<(f64, f64)>>,
@@ -366,7 +366,7 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             },
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
             cost: record.cost(),
-            path: Some(pairs(path.map_or(&[][..], Path::waypoints))),
+            path: Some(path.into_iter().flat_map(Path::points).collect()),
             world: None,
             smoothness: path.map(Path::smoothness),
             reference: item.reference,

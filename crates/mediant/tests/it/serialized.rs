@@ -3,8 +3,8 @@
 use std::fmt::Debug;
 
 use mediant::{
-    CornerRule, DiagonalGap, Ends, Engine, FiniteK, K, Map, Motion, Path, PlacementKind, Rectangle, Rules,
-    Setup, Vertex,
+    CornerRule, DiagonalGap, Ends, Engine, FiniteK, K, Map, Motion, Path, PlacementKind, Point, Rectangle,
+    Rules, Setup, Vertex,
     options::{EngineName, Levels, Memory},
 };
 use serde::{Serialize, de::DeserializeOwned};
@@ -34,6 +34,14 @@ fn places_are_arrays() {
     check(&Vertex::new(3, -1), &json!([3, -1]));
     check(&Ends::new((0, 0), (7, 2)), &json!({ "start": [0, 0], "goal": [7, 2] }));
     check(&Rectangle::new(4, 1, 3, 2), &json!({ "x": 4, "y": 1, "width": 3, "height": 2 }));
+    check(&Point::from(Vertex::new(3, i32::MIN)), &json!([3, i32::MIN]));
+    for (x, y) in [(2.5, -0.25), (7.0, 0.000_976_562_5), (f64::from(i32::MAX), 0.5)] {
+        let point = Point::nearest(x, y).expect("two numbers");
+        assert_eq!((point.x(), point.y()), (x, y), "{point}");
+        let form = if x.fract() == 0.0 { json!([x as i32, y]) } else { json!([x, y]) };
+        check(&point, &form);
+    }
+    check_refused::<Point>(&json!([2_147_483_648.0, 0]), "beyond those of all vertices");
     check(&Path::new(Vec::new()), &json!([]));
     let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
     check(&path, &json!([[0, 0], [3, 0], [5, 2]]));

@@ -84,14 +84,14 @@ impl Path {
     /// ```
     /// use mediant_search::Path;
     /// let path = Path::new(vec![(0, 0).into(), (2, 0).into(), (2, 1).into()]);
-    /// let points: Vec<_> = path.points(1.25)?.collect();
+    /// let points: Vec<_> = path.spaced(1.25)?.collect();
     /// assert_eq!(points, [(0.0, 0.0), (1.25, 0.0), (2.0, 0.5), (2.0, 1.0)]);
     /// # Ok::<(), mediant_search::SpacingError>(())
     /// ```
     ///
     /// # Errors
     /// [`SpacingError`] for a spacing that is 0, negative or not a number.
-    pub fn points(&self, spacing: f64) -> Result<impl Iterator<Item = (f64, f64)>, SpacingError> {
+    pub fn spaced(&self, spacing: f64) -> Result<impl Iterator<Item = (f64, f64)>, SpacingError> {
         if spacing.is_nan() || spacing <= 0.0 {
             return Err(SpacingError { spacing });
         }

@@ -9,7 +9,7 @@ mod steps;
 
 use std::{fmt, ops::Index, slice, vec};
 
-use mediant_grid::Vertex;
+use mediant_grid::{Point, Vertex};
 
 use self::steps::Segment;
 pub use self::{
@@ -65,6 +65,17 @@ impl Path {
     #[must_use]
     pub fn waypoints(&self) -> &[Vertex] {
         &self.waypoints
+    }
+
+    /// The points of the path, start and goal included: in the form that also holds places between vertices.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+    /// assert_eq!(path.points().map(|point| point.to_string()).collect::<String>(), "(0, 0)(3, 0)(5, 2)");
+    /// ```
+    pub fn points(&self) -> impl ExactSizeIterator<Item = Point> + DoubleEndedIterator {
+        self.waypoints.iter().copied().map(Point::from)
     }
 
     /// The number of waypoints. [`vertices`](Self::vertices) counts each step, [`cost`](Self::cost) measures.

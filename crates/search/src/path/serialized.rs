@@ -4,10 +4,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Path;
 
-/// As its waypoints, `[[x, y], …]`.
+/// As its points, `[[x, y], …]`.
 impl Serialize for Path {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.waypoints().serialize(serializer)
+        serializer.collect_seq(self.points())
     }
 }
 

@@ -280,7 +280,7 @@ fn points_are_evenly_spaced() {
         let waypoints = (0..count).map(|_| Vertex::new(rng.below(40) as i32, rng.below(40) as i32));
         let path = Path::new(waypoints.collect());
         let spacing = [0.1, 0.25, 1.0, 2.0_f64.sqrt(), 3.7, 1e9][rng.below(6) as usize];
-        let points: Vec<_> = path.points(spacing).expect("it is positive").collect();
+        let points: Vec<_> = path.spaced(spacing).expect("it is positive").collect();
         let ends = [path.waypoints().first(), path.waypoints().last()];
         let ends = ends.map(|at| at.map(|at| (f64::from(at.x), f64::from(at.y))));
         assert_eq!([points.first().copied(), points.last().copied()], ends, "seed {seed}");
@@ -302,18 +302,18 @@ fn points_are_evenly_spaced() {
 fn odd_spacings_and_distances() {
     let around = path(&[(0, 0), (3, 0), (3, 4)]);
     for spacing in [0.0, -0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
-        let error = around.points(spacing).map(Iterator::count).expect_err("it is not positive");
+        let error = around.spaced(spacing).map(Iterator::count).expect_err("it is not positive");
         assert!(error.to_string().starts_with("points cannot be"), "{error}");
     }
-    let points = |spacing| around.points(spacing).expect("it is positive");
+    let points = |spacing| around.spaced(spacing).expect("it is positive");
     assert!(points(f64::INFINITY).eq([(0.0, 0.0), (3.0, 4.0)]));
     assert!(points(3.5).eq([(0.0, 0.0), (3.0, 0.5), (3.0, 4.0)]));
     // A multiple: no last step of almost nothing.
     assert_eq!(points(0.1).count(), 71);
     assert_eq!(points(7.0 / 55.0).count(), 56);
     assert_eq!(points(1e-300).nth(100), Some((100.0 * 1e-300, 0.0)));
-    assert_eq!(path(&[]).points(1.0).map(Iterator::count), Ok(0));
-    assert_eq!(path(&[(2, 3), (2, 3)]).points(1.0).map(Iterator::count), Ok(1));
+    assert_eq!(path(&[]).spaced(1.0).map(Iterator::count), Ok(0));
+    assert_eq!(path(&[(2, 3), (2, 3)]).spaced(1.0).map(Iterator::count), Ok(1));
     for (distance, expected) in [(-1.0, (0.0, 0.0)), (3.0, (3.0, 0.0)), (1e9, (3.0, 4.0)), (5.0, (3.0, 2.0))]
     {
         assert_eq!(around.point_at(distance), Some(expected));

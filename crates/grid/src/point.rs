@@ -1,0 +1,108 @@
+//! Points of paths: vertices, and places between them.
+
+use std::fmt;
+
+use crate::Vertex;
+
+/// The parts of a cell that coordinates are counted in.
+const PARTS: i64 = 1024;
+
+/// A point of the plane, in cells. Its coordinates are exact multiples of 1/1024, so equal points are equal,
+/// and a whole coordinate is told apart from one that is nearly so. A [`Vertex`] is a point with whole
+/// coordinates.
+///
+/// As text, and by serde, a whole coordinate is an integer and another one the shortest decimal.
+///
+/// ```
+/// use mediant_grid::{Point, Vertex};
+///
+/// let between = Point::nearest(2.03, 0.5).expect("two numbers");
+/// assert_eq!((between.x(), between.y()), (2079.0 / 1024.0, 0.5));
+/// assert_eq!((between.vertex(), between.to_string()), (None, "(2.0302734375, 0.5)".to_owned()));
+/// let whole = Point::from(Vertex::new(2, 0));
+/// assert_eq!((whole.vertex(), whole.to_string()), (Some(Vertex::new(2, 0)), "(2, 0)".to_owned()));
+/// assert_eq!(Point::nearest(2.0, 0.0), Some(whole));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Point {
+    /// In parts of a cell, as `y`.
+    x: i64,
+    y: i64,
+}
+
+impl Point {
+    /// The nearest point with coordinates in multiples of 1/1024, of two equally near ones the one further
+    /// from 0. `None` for a coordinate that is not a number, or beyond those of all vertices.
+    #[must_use]
+    pub fn nearest(x: f64, y: f64) -> Option<Self> {
+        let parts = |cells: f64| {
+            let is_in_range = cells >= f64::from(i32::MIN) && cells <= f64::from(i32::MAX);
+            is_in_range.then(|| (cells * PARTS as f64).round() as i64)
+        };
+        Some(Self { x: parts(x)?, y: parts(y)? })
+    }
+
+    /// The coordinate to the right, in cells.
+    #[must_use]
+    pub fn x(self) -> f64 {
+        // At most 2⁴¹ parts, which an `f64` holds.
+        self.x as f64 / PARTS as f64
+    }
+
+    /// The coordinate down, in cells.
+    #[must_use]
+    pub fn y(self) -> f64 {
+        self.y as f64 / PARTS as f64
+    }
+
+    /// The vertex at this point, if its coordinates are whole.
+    #[must_use]
+    pub fn vertex(self) -> Option<Vertex> {
+        let whole = |parts: i64| i32::try_from(parts / PARTS).ok().filter(|_| parts % PARTS == 0);
+        Some(Vertex::new(whole(self.x)?, whole(self.y)?))
+    }
+}
+
+impl From<Vertex> for Point {
+    fn from(Vertex { x, y }: Vertex) -> Self {
+        Self { x: i64::from(x) * PARTS, y: i64::from(y) * PARTS }
+    }
+}
+
+/// As `(2, 0.5)`.
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}, {})", self.x(), self.y())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Point;
+    use crate::Vertex;
+
+    #[test]
+    fn every_part_of_a_cell_is_kept_and_all_else_rounded() {
+        for parts in -3000..3000 {
+            let cells = f64::from(parts) / 1024.0;
+            for near in [cells, cells + 0.000_4, cells - 0.000_4] {
+                let point = Point::nearest(near, 7.0).expect("two numbers");
+                assert_eq!((point.x(), point.y()), (cells, 7.0), "{near}");
+                assert_eq!(point.vertex().is_some(), parts % 1024 == 0, "{point}");
+            }
+        }
+        assert_eq!(Point::nearest(0.5 / 1024.0, -0.5 / 1024.0).map(|at| (at.x, at.y)), Some((1, -1)));
+    }
+
+    #[test]
+    fn the_last_vertices_are_points_and_nothing_is_beyond() {
+        for (x, y) in [(i32::MIN, i32::MAX), (i32::MAX, 0), (-1, i32::MIN)] {
+            let vertex = Vertex::new(x, y);
+            assert_eq!(Point::from(vertex).vertex(), Some(vertex));
+            assert_eq!(Point::nearest(f64::from(x), f64::from(y)), Some(Point::from(vertex)));
+        }
+        for cells in [2_147_483_647.5, -2_147_483_649.0, f64::NAN, f64::INFINITY] {
+            assert_eq!((Point::nearest(cells, 0.0), Point::nearest(0.0, cells)), (None, None));
+        }
+    }
+}
