@@ -7,7 +7,7 @@ use mediant_grid::{
     Rules, Vertex, uninterrupted,
 };
 use mediant_moves::FiniteK;
-use mediant_search::{End, Ends, QueryError, Wavefront};
+use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
@@ -38,6 +38,7 @@ pub struct Space {
 struct Inner {
     map: Map,
     motion: Motion,
+    metric: Arc<Metric>,
     placed: Placed,
 }
 
@@ -137,23 +138,30 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
-        Ok(Self::searched(map, motion, interrupt)?)
+        let metric = Arc::new(Metric::new(motion.k)?);
+        Ok(Self::searched(map, motion, metric, interrupt)?)
     }
 
     /// Another map with the motion of this space.
     pub(crate) fn on(&self, map: &Map) -> Self {
-        uninterrupted(|interrupt| Self::searched(map, self.motion(), interrupt))
+        let metric = self.metric();
+        uninterrupted(|interrupt| Self::searched(map, self.motion(), Arc::clone(metric), interrupt))
     }
 
-    /// A map with a motion that some engine searches.
-    fn searched(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+    /// A map with a motion that some engine searches, and the metric of its k.
+    fn searched(
+        map: &Map,
+        motion: Motion,
+        metric: Arc<Metric>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
         };
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
-        Ok(Self { inner: Arc::new(Inner { map, motion, placed }) })
+        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed }) })
     }
 
     /// The map.
@@ -277,6 +285,11 @@ impl Space {
             Placed::Corners(layers) => layers.memory_bytes(),
         };
         bytes as u64
+    }
+
+    /// The length of a displacement where no obstacle is in the way: that of its k.
+    pub(crate) fn metric(&self) -> &Arc<Metric> {
+        &self.inner.metric
     }
 
     pub(crate) fn placed(&self) -> &Placed {
