@@ -118,4 +118,4 @@ pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
 pub use progress::{Progress, Stage};
 pub use theta::SubgoalTheta;
-pub use worth::{Compare, Counted};
+pub use worth::Counted;

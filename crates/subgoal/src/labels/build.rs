@@ -7,6 +7,7 @@ use mediant_moves::K;
 
 use super::{
     Geometry, HubLabels,
+    chain::pack,
     merge::{Label, merge},
     pack::{Packed, in_cells},
     whole::keep_whole,
@@ -20,7 +21,7 @@ use crate::{
     placement::{BuildContext, SubgoalPlacement},
     progress::{Progress, Stage},
     seen::SeenIndex,
-    worth::{self, Counted},
+    worth::{Counted, is_outdone},
 };
 
 /// Subgoals prepared within a budget of memory: hub labels where they fit, a contraction hierarchy where they
@@ -38,50 +39,19 @@ pub enum PreparedSubgoals<P: SubgoalPlacement> {
 
 impl<P: SubgoalPlacement> PreparedSubgoals<P> {
     /// Prepares a free space for paths over N(k), or at any angle. `most` is the memory that labels may take,
-    /// in bytes; a contraction hierarchy takes what it needs. The interrupt is asked for each row of the map
-    /// and each subgoal.
+    /// in bytes; a contraction hierarchy takes what it needs. Beside the `labels` of the same free space for
+    /// another k it shares with them, at corners, all but the labels. The interrupt is asked for each row of
+    /// the map and each subgoal.
+    ///
+    /// `unprepared` is the engine that prepares nothing. It is asked only where labels do not fit; if it takes
+    /// less work than a contraction hierarchy with a large core, nothing is kept. It should be
+    /// [`BlockJps`](mediant_search::BlockJps) up to k = 3, at corners [`Anya`](mediant_search::Anya) beyond: by
+    /// how long these take, works are compared. Without such an engine it is `&mut |_| Ok(None)`.
     ///
     /// # Errors
     /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, if it would be too large,
-    /// or if it was stopped.
+    /// or if it was stopped; [`SubgoalError::Mismatch`] for labels of another free space.
     pub fn within(
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        most: usize,
-        progress: &(impl Fn(Progress) + Sync),
-        interrupt: &Interrupt,
-    ) -> Result<Self, SubgoalError> {
-        let k = k.into();
-        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
-        Self::new(space, k, None, most, (progress, interrupt), is_outdone)
-    }
-
-    /// [`within`](Self::within), beside the hub labels of the same free space for another k: at corners it
-    /// shares with them all but the labels.
-    ///
-    /// # Errors
-    /// As for [`within`](Self::within), and [`SubgoalError::Mismatch`] for labels of another free space.
-    pub fn beside(
-        labels: &HubLabels<P>,
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        most: usize,
-        progress: &(impl Fn(Progress) + Sync),
-        interrupt: &Interrupt,
-    ) -> Result<Self, SubgoalError> {
-        let k = k.into();
-        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
-        Self::new(space, k, Some(labels), most, (progress, interrupt), is_outdone)
-    }
-
-    /// [`within`](Self::within), or [`beside`](Self::beside) labels, with `unprepared` as the engine that
-    /// prepares nothing: it answers a query and counts its work. It is asked only where labels do not fit.
-    /// (`within` and `beside` take [`BlockJps`](mediant_search::BlockJps) up to k = 3, at corners
-    /// [`Anya`](mediant_search::Anya) beyond.)
-    ///
-    /// # Errors
-    /// As for [`beside`](Self::beside).
-    pub fn compared(
         space: &FreeSpace<P>,
         k: impl Into<K>,
         labels: Option<&HubLabels<P>>,
@@ -89,21 +59,8 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
         (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
         unprepared: &mut Counted<'_>,
     ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), labels, most, (progress, interrupt), |graph| {
-            worth::is_outdone(space, graph, unprepared, interrupt)
-        })
-    }
-
-    fn new(
-        space: &FreeSpace<P>,
-        k: K,
-        beside: Option<&HubLabels<P>>,
-        most: usize,
-        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
-        is_outdone: impl FnOnce(&SubgoalGraph<P>) -> Result<bool, Interrupted>,
-    ) -> Result<Self, SubgoalError> {
-        let shared = shared(space, beside)?;
-        let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
+        let shared = shared(space, labels)?;
+        let ground = Ground::new(space, k.into(), Hierarchy::Contracted, interrupt)?;
         let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
         match parts(space, &ground, shared, &contracted, most, (progress, interrupt)) {
             Ok(parts) => return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts))),
@@ -112,20 +69,9 @@ impl<P: SubgoalPlacement> PreparedSubgoals<P> {
             Err(_) => {}
         }
         let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted, interrupt)?;
-        Ok(if is_outdone(&graph)? { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
+        let is_outdone = is_outdone(space, &graph, unprepared, interrupt)?;
+        Ok(if is_outdone { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
     }
-}
-
-/// Whether the fastest engine that prepares nothing takes less time than a search on a graph.
-fn is_outdone<P: SubgoalPlacement>(
-    space: &FreeSpace<P>,
-    k: K,
-    graph: &SubgoalGraph<P>,
-    interrupt: &Interrupt,
-) -> Result<bool, Interrupted> {
-    P::with_unprepared(space, k, interrupt, &mut |unprepared| {
-        worth::is_outdone(space, graph, unprepared, interrupt)
-    })
 }
 
 impl<P: SubgoalPlacement> HubLabels<P> {
@@ -223,7 +169,7 @@ fn parts<P: SubgoalPlacement>(
     let most_labels = rest / size_of::<u64>();
     let labels = whole_labels(context, contracted, most_labels, &mut report(Stage::Labels), interrupt)?;
     let labels = labels.ok_or_else(more)?;
-    let packed = Packed::new(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
+    let packed = pack(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
     if packed.memory_bytes() <= rest { Ok((geometry, packed)) } else { Err(more()) }
 }
 
