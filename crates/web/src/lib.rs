@@ -44,6 +44,7 @@ mod module;
 mod picture;
 mod planner;
 mod posthoc;
+mod prepare;
 mod scenario;
 mod space;
 mod trace;
