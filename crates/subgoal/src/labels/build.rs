@@ -16,63 +16,11 @@ use crate::{
     build::Ground,
     contract::{ContractedGraph, SubgoalGeometry},
     error::SubgoalError,
-    graph::SubgoalGraph,
     hierarchy::Hierarchy,
     placement::{BuildContext, SubgoalPlacement},
     progress::{Progress, Stage},
     seen::SeenIndex,
-    worth::{Counted, is_outdone},
 };
-
-/// Subgoals prepared within a budget of memory: hub labels where they fit, a contraction hierarchy where they
-/// do not. Both give optimal paths.
-#[derive(Clone, Debug)]
-pub enum PreparedSubgoals<P: SubgoalPlacement> {
-    /// Hub labels.
-    Labels(HubLabels<P>),
-    /// A contraction hierarchy.
-    Contracted(SubgoalGraph<P>),
-    /// Neither, and what they would belong to: the contraction left a large core, an engine that prepares
-    /// nothing is faster, and nothing was kept.
-    Nothing(Identity),
-}
-
-impl<P: SubgoalPlacement> PreparedSubgoals<P> {
-    /// Prepares a free space for paths over N(k), or at any angle. `most` is the memory that labels may take,
-    /// in bytes; a contraction hierarchy takes what it needs. Beside the `labels` of the same free space for
-    /// another k it shares with them, at corners, all but the labels. The interrupt is asked for each row of
-    /// the map and each subgoal.
-    ///
-    /// `unprepared` is the engine that prepares nothing. It is asked only where labels do not fit; if it takes
-    /// less work than a contraction hierarchy with a large core, nothing is kept. It should be
-    /// [`BlockJps`](mediant_search::BlockJps) up to k = 3, at corners [`Anya`](mediant_search::Anya) beyond: by
-    /// how long these take, works are compared. Without such an engine it is `&mut |_| Ok(None)`.
-    ///
-    /// # Errors
-    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, if it would be too large,
-    /// or if it was stopped; [`SubgoalError::Mismatch`] for labels of another free space.
-    pub fn within(
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        labels: Option<&HubLabels<P>>,
-        most: usize,
-        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
-        unprepared: &mut Counted<'_>,
-    ) -> Result<Self, SubgoalError> {
-        let shared = shared(space, labels)?;
-        let ground = Ground::new(space, k.into(), Hierarchy::Contracted, interrupt)?;
-        let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
-        match parts(space, &ground, shared, &contracted, most, (progress, interrupt)) {
-            Ok(parts) => return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts))),
-            Err(error @ SubgoalError::Interrupted(_)) => return Err(error),
-            // There is no room for labels.
-            Err(_) => {}
-        }
-        let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted, interrupt)?;
-        let is_outdone = is_outdone(space, &graph, unprepared, interrupt)?;
-        Ok(if is_outdone { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
-    }
-}
 
 impl<P: SubgoalPlacement> HubLabels<P> {
     /// The hub labels of a free space for paths over N(k), or at any angle. `most` is the memory that they
@@ -114,31 +62,28 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         most: usize,
         (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
     ) -> Result<Self, SubgoalError> {
-        let shared = shared(space, beside)?;
+        beside.map_or(Ok(()), |labels| labels.check(space))?;
         let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
         let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
-        let parts = parts(space, &ground, shared, &contracted, most, (progress, interrupt))?;
-        Ok(Self::from_parts(space, ground, parts))
+        Self::of_contraction(space, &ground, &contracted, beside, most, (progress, interrupt))
     }
 
-    fn from_parts(
+    /// The hub labels of a contraction, beside those of the same free space for another k.
+    pub(crate) fn of_contraction(
         space: &FreeSpace<P>,
-        ground: Ground<P>,
-        (geometry, packed): (Arc<Geometry>, Packed),
-    ) -> Self {
+        ground: &Ground<P>,
+        contracted: &ContractedGraph,
+        beside: Option<&Self>,
+        most: usize,
+        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
+    ) -> Result<Self, SubgoalError> {
+        let shared = beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry);
+        let (geometry, packed) = parts(space, ground, shared, contracted, most, (progress, interrupt))?;
         let Ground { metric, criterion, k, .. } = ground;
+        let (metric, criterion, k) = (metric.clone(), *criterion, *k);
         let identity = Identity { k: Some(k), ..space.identity() };
-        Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData }
+        Ok(Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData })
     }
-}
-
-/// The geometry that labels for another k share with these, if these belong to the free space.
-fn shared<'s, P: SubgoalPlacement>(
-    space: &FreeSpace<P>,
-    beside: Option<&'s HubLabels<P>>,
-) -> Result<Option<&'s Arc<Geometry>>, SubgoalError> {
-    beside.map_or(Ok(()), |labels| labels.check(space))?;
-    Ok(beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry))
 }
 
 /// The geometry, which is that of the map, and the labels.

@@ -3,11 +3,9 @@
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::{
-    Reader, Writer,
-    merge::{CutOff, Label},
-};
+use super::merge::{CutOff, Label};
 use crate::{
+    parts::{Reader, Writer},
     placement::{BuildContext, EdgeCriterion, EdgeFinder},
     subgoals::Subgoals,
 };
