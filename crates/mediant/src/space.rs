@@ -11,8 +11,8 @@ use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    setup_error::SetupError, shared_rules::Shared, within::NEVER,
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, never::NEVER,
+    setup::Setup, setup_error::SetupError, shared_rules::Shared,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;

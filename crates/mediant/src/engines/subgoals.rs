@@ -15,8 +15,8 @@ use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
-    goals::{HasLabels, Labeled},
     index::Index,
+    labeled::{HasLabels, Labeled},
     map::Map,
     motion::Motion,
     option::{
