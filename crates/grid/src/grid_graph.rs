@@ -132,7 +132,7 @@ impl<P: Placement> GridGraph<P> {
         let (width, _) = P::vertices(grid);
         Ok(Self {
             steps: tables.moves().iter().map(|&(v, cost)| Step::new(v, cost, width)).collect(),
-            costs: cost_table(k)?,
+            costs: cost_table(k)?.clone(),
             short: tables.short(),
             octants: tables.octants::<P>([grid.rows(), grid.columns()].map(BitMatrix::bits_per_row)),
             space,

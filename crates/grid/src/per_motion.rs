@@ -68,20 +68,19 @@ impl<V> Default for PerMotion<V> {
     }
 }
 
-/// The costs of the moves of N(k), and h_k: a copy of the table that the process keeps, for the k of search
-/// graphs.
+/// The costs of the moves of N(k), and h_k: the table that the process keeps.
 ///
 /// Hidden, as [`PerMotion`] is.
 ///
 /// # Errors
 /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
 #[doc(hidden)]
-pub fn cost_table(k: FiniteK) -> Result<CostTable, KError> {
+pub fn cost_table(k: FiniteK) -> Result<&'static CostTable, KError> {
+    const KS: usize = CostTable::MAX_K as usize - 1;
     static KNOWN: [OnceLock<Result<CostTable, KError>>; KS] = [const { OnceLock::new() }; KS];
-    match KNOWN.get(k.depth() as usize) {
-        Some(known) => known.get_or_init(|| CostTable::new(k)).clone(),
-        None => CostTable::new(k),
-    }
+    let too_large = || KError::TooLarge { k: k.get().into(), max: CostTable::MAX_K };
+    let known = KNOWN.get(k.depth() as usize).ok_or_else(too_large)?;
+    known.get_or_init(|| CostTable::new(k)).as_ref().map_err(|&error| error)
 }
 
 #[cfg(test)]

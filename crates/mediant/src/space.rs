@@ -38,7 +38,7 @@ pub struct Space {
 struct Inner {
     map: Map,
     motion: Motion,
-    metric: Arc<Metric>,
+    metric: Metric,
     placed: Placed,
 }
 
@@ -138,21 +138,19 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
-        let metric = Arc::new(Metric::new(motion.k)?);
-        Ok(Self::searched(map, motion, metric, interrupt)?)
+        Ok(Self::searched(map, motion, Metric::new(motion.k)?, interrupt)?)
     }
 
     /// Another map with the motion of this space.
     pub(crate) fn on(&self, map: &Map) -> Self {
-        let metric = self.metric();
-        uninterrupted(|interrupt| Self::searched(map, self.motion(), Arc::clone(metric), interrupt))
+        uninterrupted(|interrupt| Self::searched(map, self.motion(), self.metric(), interrupt))
     }
 
     /// A map with a motion that some engine searches, and the metric of its k.
     fn searched(
         map: &Map,
         motion: Motion,
-        metric: Arc<Metric>,
+        metric: Metric,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let placed = match motion.rules {
@@ -288,8 +286,8 @@ impl Space {
     }
 
     /// The length of a displacement where no obstacle is in the way: that of its k.
-    pub(crate) fn metric(&self) -> &Arc<Metric> {
-        &self.inner.metric
+    pub(crate) fn metric(&self) -> Metric {
+        self.inner.metric
     }
 
     pub(crate) fn placed(&self) -> &Placed {

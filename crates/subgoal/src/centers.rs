@@ -300,7 +300,7 @@ mod tests {
             space: &space,
             subgoals: &subgoals,
             tables: &tables,
-            metric: &metric,
+            metric,
             k: K::Finite(k),
             criterion: EdgeCriterion::Direct,
         };

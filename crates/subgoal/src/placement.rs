@@ -145,7 +145,7 @@ pub struct BuildContext<'m, P: EdgeFinder> {
     pub(crate) space: &'m FreeSpace<P>,
     pub(crate) subgoals: &'m Subgoals,
     pub(crate) tables: &'m P::Tables,
-    pub(crate) metric: &'m Metric,
+    pub(crate) metric: Metric,
     pub(crate) k: K,
     pub(crate) criterion: EdgeCriterion,
 }

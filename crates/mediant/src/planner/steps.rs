@@ -1,7 +1,5 @@
 //! Searches in steps.
 
-use std::sync::Arc;
-
 use mediant_grid::Vertex;
 use mediant_moves::K;
 use mediant_search::{Answer, Observer, Path, Query, QueryError, Search};
@@ -40,7 +38,7 @@ impl Planner {
         self.begun = None;
         let guarantee = self.search.guarantee();
         let space = self.index.space();
-        let metric = Arc::clone(space.metric());
+        let metric = space.metric();
         // Smoothing connects nothing that the search does not.
         let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
         let (is_any_angle, query) = (unsmoothed.paths() == K::Any, query.into());

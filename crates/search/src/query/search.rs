@@ -1,7 +1,5 @@
 //! The search for the answer to a query.
 
-use std::sync::Arc;
-
 use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::Cost;
 
@@ -40,7 +38,7 @@ use crate::{
 /// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never)?;
 /// let (mut planner, metric) = (AStar::new(&graph, Hk), Metric::new(FiniteK::N8.into())?);
 /// let query = Query::new((0, 0), (4, 1)).nearest();
-/// let mut search = Search::new(&graph, Arc::new(metric), planner.guarantee(), query)?;
+/// let mut search = Search::new(&graph, metric, planner.guarantee(), query)?;
 /// let answer = loop {
 ///     if let Some(answer) = search.step(&mut planner, 1, &mut ())? {
 ///         break answer;
@@ -52,7 +50,7 @@ use crate::{
 #[derive(Debug)]
 pub struct Search {
     ends: EndSets,
-    metric: Arc<Metric>,
+    metric: Metric,
     guarantee: Guarantee,
     /// The pair that is searched, and whether the planner has begun with it.
     next: usize,
@@ -99,13 +97,13 @@ impl Search {
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
     pub fn new<P: Placement>(
         space: &FreeSpace<P>,
-        metric: Arc<Metric>,
+        metric: Metric,
         guarantee: Guarantee,
         query: Query,
     ) -> Result<Self, QueryError> {
         let wishes = query.into_wishes();
-        let bound = if let Guarantee::Optimal(_) = guarantee { &*metric } else { &Metric::Euclidean };
-        let ends = EndSets::new(space, &metric, bound, &wishes)?;
+        let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { Metric::Euclidean };
+        let ends = EndSets::new(space, metric, bound, &wishes)?;
         // A search that may be stopped leads forward to one of the goals first, since only then the best so
         // far begins at the start.
         let backward = match ends.only_start() {
@@ -233,7 +231,7 @@ impl Search {
                 return Ok(SearchStatus::Searching);
             }
         }
-        let mut watch = Watch { progress: &mut self.progress, metric: &self.metric, observer };
+        let mut watch = Watch { progress: &mut self.progress, metric: self.metric, observer };
         if let Backward::After(pairs, start) = self.backward
             && self.next == pairs
             && !self.has_begun

@@ -79,8 +79,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     ) -> Result<Self, SubgoalError> {
         let shared = beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry);
         let (geometry, packed) = parts(space, ground, shared, contracted, most, (progress, interrupt))?;
-        let Ground { metric, criterion, k, .. } = ground;
-        let (metric, criterion, k) = (metric.clone(), *criterion, *k);
+        let Ground { metric, criterion, k, .. } = *ground;
         let identity = Identity { k: Some(k), ..space.identity() };
         Ok(Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData })
     }
