@@ -18,6 +18,8 @@ pub mod package;
 pub mod program;
 pub mod project;
 pub mod tidy;
+mod tree;
 pub mod web;
 
 pub use error::Error;
+pub use tree::Tree;

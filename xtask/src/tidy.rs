@@ -11,20 +11,18 @@ mod modules;
 mod published;
 mod source;
 mod text;
-mod tree;
 mod width;
 
 use std::path::Path;
 
 use mediant_sets::root;
 
-use crate::{Error, describe, project};
+use crate::{Error, describe, project, tree::Tree};
 
 pub use clauses::MOST_CLAUSES;
 pub use dependencies::{COMPILED, Compiled, check_compiled, check_packages};
 pub use finding::{Exception, Finding};
 pub use published::check_published;
-pub use tree::Tree;
 
 /// All exceptions of the project. One that is not needed any more is itself a finding, so that the list only
 /// shrinks.

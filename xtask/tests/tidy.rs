@@ -4,8 +4,9 @@ use std::{collections::BTreeMap, path::PathBuf};
 
 use mediant_sets::root;
 use xtask::{
+    Tree,
     project::{self, Dependency, Kind, Package},
-    tidy::{self, COMPILED, Exception, Finding, MOST_CLAUSES, Tree},
+    tidy::{self, COMPILED, Exception, Finding, MOST_CLAUSES},
 };
 
 #[test]

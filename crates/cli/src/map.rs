@@ -15,8 +15,7 @@ use crate::{
     check::file::{bytes, shown},
     draw::theme::Theme,
     failure::Failure,
-    run::distances::rounded,
-    terminal::message::say_warning,
+    terminal::{message::say_warning, numbers::rounded},
 };
 
 /// A map with the name that reports give it.

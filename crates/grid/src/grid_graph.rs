@@ -5,8 +5,10 @@ use std::{ops::Deref, sync::Arc};
 use mediant_moves::{Cost, CostTable, FiniteK, KError, Neighborhood, Vector};
 
 use crate::{
-    BitMatrix, FreeSpace, Grid, Identity, Placement, Vertex, VertexId, per_motion::cost_table,
-    tables::Tables, tree::Octant,
+    BitMatrix, FreeSpace, Grid, Identity, Placement, Vertex, VertexId,
+    per_motion::{self, cost_table},
+    tables::Tables,
+    tree::Octant,
 };
 
 /// A move of N(k) with its cost and its effect on vertex ids.
@@ -97,7 +99,7 @@ impl<P: Placement> Deref for GridGraph<P> {
 
 impl<P: Placement> GridGraph<P> {
     /// The largest k of a search graph: 4,096 moves, up to 89 cells long along an axis.
-    pub const MAX_K: u32 = 12;
+    pub const MAX_K: u32 = per_motion::MAX_K;
 
     /// The search graph of `grid` under `rule` and N(k).
     ///
@@ -130,7 +132,7 @@ impl<P: Placement> GridGraph<P> {
         let (width, _) = P::vertices(grid);
         Ok(Self {
             steps: tables.moves().iter().map(|&(v, cost)| Step::new(v, cost, width)).collect(),
-            costs: cost_table(k)?,
+            costs: cost_table(k)?.clone(),
             short: tables.short(),
             octants: tables.octants::<P>([grid.rows(), grid.columns()].map(BitMatrix::bits_per_row)),
             space,
@@ -281,7 +283,7 @@ pub struct MoveSet {
 
 impl MoveSet {
     /// Room for the moves of the largest k.
-    const WORDS: usize = (1 << GridGraph::<crate::Centers>::MAX_K) / 64;
+    const WORDS: usize = (1 << per_motion::MAX_K) / 64;
 
     /// The number of moves in the set.
     #[must_use]

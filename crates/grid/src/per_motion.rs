@@ -4,10 +4,13 @@ use std::sync::OnceLock;
 
 use mediant_moves::{CostTable, FiniteK, KError};
 
-use crate::{Centers, GridGraph, Rules};
+use crate::Rules;
+
+/// The largest k of a search graph.
+pub(crate) const MAX_K: u32 = 12;
 
 /// The number of k with a search graph: from 2 on.
-const KS: usize = GridGraph::<Centers>::MAX_K as usize - 1;
+const KS: usize = MAX_K as usize - 1;
 
 /// A value for each placement with its rule of motion and each k of a search graph. Each is computed when it
 /// is first asked for, and kept as long as the process lives: there are 55 at most. Reading takes no lock. A
@@ -30,7 +33,7 @@ impl<V> PerMotion<V> {
     /// The value for these rules and this k.
     ///
     /// # Errors
-    /// [`KError::TooLarge`] above [`GridGraph::MAX_K`].
+    /// [`KError::TooLarge`] above [`GridGraph::MAX_K`](crate::GridGraph::MAX_K).
     pub fn get(&self, rules: Rules, k: FiniteK, compute: impl FnOnce() -> V) -> Result<&V, KError> {
         Ok(self.cell(rules, k)?.get_or_init(compute))
     }
@@ -54,7 +57,7 @@ impl<V> PerMotion<V> {
     }
 
     fn cell(&self, rules: Rules, k: FiniteK) -> Result<&OnceLock<V>, KError> {
-        let too_large = || KError::TooLarge { k: k.get().into(), max: GridGraph::<Centers>::MAX_K };
+        let too_large = || KError::TooLarge { k: k.get().into(), max: MAX_K };
         self.known[rules.number()].get(k.depth() as usize).ok_or_else(too_large)
     }
 }
@@ -65,20 +68,19 @@ impl<V> Default for PerMotion<V> {
     }
 }
 
-/// The costs of the moves of N(k), and h_k: a copy of the table that the process keeps, for the k of search
-/// graphs.
+/// The costs of the moves of N(k), and h_k: the table that the process keeps.
 ///
 /// Hidden, as [`PerMotion`] is.
 ///
 /// # Errors
 /// [`KError::TooLarge`] above [`CostTable::MAX_K`].
 #[doc(hidden)]
-pub fn cost_table(k: FiniteK) -> Result<CostTable, KError> {
+pub fn cost_table(k: FiniteK) -> Result<&'static CostTable, KError> {
+    const KS: usize = CostTable::MAX_K as usize - 1;
     static KNOWN: [OnceLock<Result<CostTable, KError>>; KS] = [const { OnceLock::new() }; KS];
-    match KNOWN.get(k.depth() as usize) {
-        Some(known) => known.get_or_init(|| CostTable::new(k)).clone(),
-        None => CostTable::new(k),
-    }
+    let too_large = || KError::TooLarge { k: k.get().into(), max: CostTable::MAX_K };
+    let known = KNOWN.get(k.depth() as usize).ok_or_else(too_large)?;
+    known.get_or_init(|| CostTable::new(k)).as_ref().map_err(|&error| error)
 }
 
 #[cfg(test)]

@@ -300,3 +300,14 @@ impl Quotients {
         }
     }
 }
+
+impl PlacementKind {
+    /// Whether a vertex of a grid is free: see [`Placement::is_free`].
+    #[must_use]
+    pub fn is_free(self, grid: &Grid, at: Vertex) -> bool {
+        match self {
+            Self::Center => Centers::is_free(grid, at),
+            Self::Corner => Corners::is_free(grid, at),
+        }
+    }
+}

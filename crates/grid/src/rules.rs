@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use crate::{Centers, Corners, Grid, Placement, Vertex, names};
+use crate::names;
 
 /// Where the vertices of the search graph are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,17 +73,6 @@ pub enum Rules {
     Center(CornerRule),
     /// Vertices at cell corners.
     Corner(DiagonalGap),
-}
-
-impl PlacementKind {
-    /// Whether a vertex of a grid is free: see [`Placement::is_free`].
-    #[must_use]
-    pub fn is_free(self, grid: &Grid, at: Vertex) -> bool {
-        match self {
-            Self::Center => Centers::is_free(grid, at),
-            Self::Corner => Corners::is_free(grid, at),
-        }
-    }
 }
 
 impl Rules {

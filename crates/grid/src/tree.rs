@@ -23,15 +23,16 @@ use std::{ops::Range, sync::Arc};
 use mediant_moves::{Cost, FiniteK, Vector};
 
 use crate::{
-    BitMatrix, Centers, GridGraph, Placement, SweptCells,
+    BitMatrix, Placement, SweptCells,
     bits::BitIndex,
     footprint::CellMask,
     frame::{CellOffset, Frame},
+    per_motion::MAX_K,
 };
 
 // The cells of a row of the first octant fit in 128 bits.
 const _: () = {
-    let Ok(k) = FiniteK::new(GridGraph::<Centers>::MAX_K) else { panic!() };
+    let Ok(k) = FiniteK::new(MAX_K) else { panic!() };
     assert!(matches!(k.radius(), Ok(0..127)));
 };
 

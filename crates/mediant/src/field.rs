@@ -10,10 +10,10 @@ use mediant_search::{
 
 use crate::{
     error::Error,
+    never::NEVER,
     setup_error::SetupError,
     shared_rules::{Shared, pruning},
     space::{Layers, Placed, Space},
-    within::NEVER,
 };
 
 /// The distance of every vertex to the nearest of one or many sources, with the paths and directions out of

@@ -2,12 +2,17 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Vertex};
+use mediant_grid::{Identity, Interrupt, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{End, Ends, Query, QueryError, parts::HasFreeSpace};
-use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
+use mediant_search::{End, Ends, Query};
 
-use crate::{error::Error, index::Index, planner::Planner, within::NEVER};
+use crate::{
+    error::Error,
+    index::Index,
+    labeled::{Asked, HasLabels},
+    never::NEVER,
+    planner::Planner,
+};
 
 /// Goals that many starts ask for, prepared for the indexes of one map, rules and k: made by
 /// [`Index::goals`], asked by [`Planner::distances`] and [`Planner::nearest`]. Clones share them, and all
@@ -83,81 +88,6 @@ impl Index {
         going?;
         Ok(Goals(Arc::new(Inner { identity: self.identity(), vertices, by_hub })))
     }
-}
-
-/// Hub labels of either placement.
-pub(crate) trait HasLabels {
-    /// [`HubLabels::goals`].
-    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<mediant_subgoal::Goals, Error>;
-
-    /// A search of distances to many goals.
-    fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error>;
-}
-
-/// A free space with its hub labels.
-#[derive(Clone)]
-pub(crate) struct Labeled<P: SubgoalPlacement> {
-    pub(crate) space: Arc<FreeSpace<P>>,
-    pub(crate) labels: Arc<HubLabels<P>>,
-}
-
-impl<P: SubgoalPlacement> HasLabels for Labeled<P> {
-    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<mediant_subgoal::Goals, Error> {
-        Ok(self.labels.goals(&self.space, goals)?)
-    }
-
-    fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error> {
-        Ok(Box::new(HubLabelSearch::new(Arc::clone(&self.space), Arc::clone(&self.labels))?))
-    }
-}
-
-/// Distances to many goals by hub labels.
-pub(crate) trait ToGoals {
-    /// [`HubLabelSearch::distances`].
-    fn distances(
-        &mut self,
-        start: Vertex,
-        goals: &mediant_subgoal::Goals,
-        distances: &mut Vec<Option<Cost>>,
-    ) -> Result<(), QueryError>;
-
-    /// [`HubLabelSearch::nearest`].
-    fn nearest(
-        &mut self,
-        start: Vertex,
-        goals: &mediant_subgoal::Goals,
-    ) -> Result<Option<(usize, Cost)>, QueryError>;
-}
-
-impl<S, P> ToGoals for HubLabelSearch<Arc<S>, Arc<HubLabels<P>>>
-where
-    P: SubgoalPlacement,
-    S: HasFreeSpace<Placement = P>,
-{
-    fn distances(
-        &mut self,
-        start: Vertex,
-        goals: &mediant_subgoal::Goals,
-        distances: &mut Vec<Option<Cost>>,
-    ) -> Result<(), QueryError> {
-        self.distances(start, goals, distances)
-    }
-
-    fn nearest(
-        &mut self,
-        start: Vertex,
-        goals: &mediant_subgoal::Goals,
-    ) -> Result<Option<(usize, Cost)>, QueryError> {
-        self.nearest(start, goals)
-    }
-}
-
-/// The many-goals search of a planner, and its scratch memory.
-#[derive(Default)]
-pub(crate) struct Asked {
-    /// Made when it is first needed.
-    search: Option<Box<dyn ToGoals + Send>>,
-    costs: Vec<Option<Cost>>,
 }
 
 impl Planner {

@@ -7,12 +7,12 @@ use mediant_grid::{
     Rules, Vertex, uninterrupted,
 };
 use mediant_moves::FiniteK;
-use mediant_search::{End, Ends, QueryError, Wavefront};
+use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, setup::Setup,
-    setup_error::SetupError, shared_rules::Shared, within::NEVER,
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, never::NEVER,
+    setup::Setup, setup_error::SetupError, shared_rules::Shared,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -38,6 +38,7 @@ pub struct Space {
 struct Inner {
     map: Map,
     motion: Motion,
+    metric: Metric,
     placed: Placed,
 }
 
@@ -137,23 +138,28 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
-        Ok(Self::searched(map, motion, interrupt)?)
+        Ok(Self::searched(map, motion, Metric::new(motion.k)?, interrupt)?)
     }
 
     /// Another map with the motion of this space.
     pub(crate) fn on(&self, map: &Map) -> Self {
-        uninterrupted(|interrupt| Self::searched(map, self.motion(), interrupt))
+        uninterrupted(|interrupt| Self::searched(map, self.motion(), self.metric(), interrupt))
     }
 
-    /// A map with a motion that some engine searches.
-    fn searched(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+    /// A map with a motion that some engine searches, and the metric of its k.
+    fn searched(
+        map: &Map,
+        motion: Motion,
+        metric: Metric,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
         };
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
-        Ok(Self { inner: Arc::new(Inner { map, motion, placed }) })
+        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed }) })
     }
 
     /// The map.
@@ -277,6 +283,11 @@ impl Space {
             Placed::Corners(layers) => layers.memory_bytes(),
         };
         bytes as u64
+    }
+
+    /// The length of a displacement where no obstacle is in the way: that of its k.
+    pub(crate) fn metric(&self) -> Metric {
+        self.inner.metric
     }
 
     pub(crate) fn placed(&self) -> &Placed {

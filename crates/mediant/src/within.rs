@@ -2,7 +2,7 @@
 
 use std::path::Path as FilePath;
 
-use mediant_grid::{Clearance, Fit, Interrupt, Outside, Vertex};
+use mediant_grid::{Clearance, Fit, Outside, Vertex};
 use mediant_moves::K;
 use mediant_search::{Ends, Limits, Path};
 use mediant_subgoal::Progress;
@@ -12,9 +12,6 @@ use crate::{
     error::Error, field::Field, goals::Goals, index::Index, map::Map, motion::Motion, planner::Planner,
     space::Space, table::Table,
 };
-
-/// For work without limits.
-pub(crate) static NEVER: Interrupt = Interrupt::NEVER;
 
 /// A map, space or index whose work stops at a deadline or by a flag: each call that can take long is also a
 /// call of this one, with the same result. A stopped call returns [`Error::Stopped`] soon, keeps no memory

@@ -6,7 +6,7 @@ use mediant_grid::{Rules, names};
 
 use crate::{
     guarantee::Guarantee,
-    path::Path,
+    path::{Measured, Path},
     query::{Limit, Stopped},
 };
 
@@ -170,15 +170,5 @@ impl fmt::Display for Answer {
             Self::Nearest(path) => write!(f, "unreachable, the nearest is: {}", Measured(path)),
             Self::Stopped(stopped) => stopped.fmt(f),
         }
-    }
-}
-
-/// The size of a path, in words.
-pub(crate) struct Measured<'a>(pub(crate) &'a Path);
-
-impl fmt::Display for Measured<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (count, cost) = (self.0.len(), self.0.cost());
-        write!(f, "{count} waypoint{}, {cost:.2} cells", if count == 1 { "" } else { "s" })
     }
 }

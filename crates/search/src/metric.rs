@@ -6,10 +6,10 @@ use mediant_moves::{Cost, CostTable, K, KError};
 use crate::segment::segment_cost;
 
 /// h_k, or the Euclidean length for k = ∞. Both are norms; values are in fixed point.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Metric {
-    /// h_k.
-    Hk(CostTable),
+    /// h_k, by the table that the process keeps.
+    Hk(&'static CostTable),
     /// The Euclidean length.
     Euclidean,
 }
@@ -29,7 +29,7 @@ impl Metric {
     /// The length of a displacement.
     #[must_use]
     #[inline]
-    pub fn distance(&self, v: Vector) -> Cost {
+    pub fn distance(self, v: Vector) -> Cost {
         match self {
             Self::Hk(costs) => costs.distance(v),
             Self::Euclidean => segment_cost(v),
@@ -40,7 +40,7 @@ impl Metric {
     /// [`distance`](Self::distance): the heuristic.
     #[must_use]
     #[inline]
-    pub fn estimate(&self, v: Vector) -> Cost {
+    pub fn estimate(self, v: Vector) -> Cost {
         match self {
             Self::Hk(costs) => costs.distance(v),
             // A displacement has at most 2¹⁵ · √2 cells, so truncation takes off more than the root's
@@ -56,7 +56,7 @@ impl Metric {
     /// for k = ∞, in more digits than [`distance`](Self::distance). Of two paths with the same cost over
     /// N(k), the shorter line is less. So lexicographically shortest paths are taut.
     #[must_use]
-    pub fn lexicographic_length(&self, v: Vector) -> u128 {
+    pub fn lexicographic_length(self, v: Vector) -> u128 {
         match self {
             Self::Hk(costs) => {
                 u128::from(costs.distance(v).to_bits()) << 64 | u128::from(segment_cost(v).to_bits())

@@ -20,6 +20,7 @@ mod cache;
 mod error;
 #[cfg(feature = "download")]
 mod fetch;
+mod folder;
 mod manifest;
 mod places;
 mod progress;
@@ -32,6 +33,7 @@ pub use cache::{Cache, Report};
 pub use error::Error;
 #[cfg(feature = "download")]
 pub use fetch::Source;
+pub use folder::files;
 pub use manifest::{Contents, DIGEST, Manifest, Set, map_digest};
-pub use places::{cache, files, root};
+pub use places::{cache, root};
 pub use progress::progress;

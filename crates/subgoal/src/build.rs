@@ -82,7 +82,7 @@ impl<P: SubgoalPlacement> Ground<P> {
 
     pub(crate) fn context<'m>(&'m self, space: &'m FreeSpace<P>) -> BuildContext<'m, P> {
         let Self { subgoals, metric, tables, k, criterion } = self;
-        BuildContext { space, subgoals, tables, metric, k: *k, criterion: *criterion }
+        BuildContext { space, subgoals, tables, metric: *metric, k: *k, criterion: *criterion }
     }
 
     /// Finds the edges, and builds a hierarchy on them.

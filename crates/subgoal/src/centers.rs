@@ -12,21 +12,11 @@ use crate::{
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement, VertexRun},
-    worth::{self, Compare},
 };
 
 impl SubgoalPlacement for Centers {}
 
 impl EdgeFinder for Centers {
-    fn with_unprepared(
-        space: &FreeSpace<Self>,
-        k: K,
-        interrupt: &Interrupt,
-        compare: &mut Compare<'_>,
-    ) -> Result<bool, Interrupted> {
-        k.finite().map_or(Ok(false), |k| worth::with_jumps(space, k, interrupt, compare))
-    }
-
     const SHARES_SIGHT: bool = false;
 
     const SIDES: u32 = 1;
@@ -310,7 +300,7 @@ mod tests {
             space: &space,
             subgoals: &subgoals,
             tables: &tables,
-            metric: &metric,
+            metric,
             k: K::Finite(k),
             criterion: EdgeCriterion::Direct,
         };

@@ -16,7 +16,6 @@ use crate::{
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
     hierarchy::Hierarchy,
-    labels::{HubLabels, PreparedSubgoals},
     placement::{EdgeCriterion, SubgoalPlacement},
     subgoals::Subgoals,
 };
@@ -196,55 +195,11 @@ fn read_arcs(
     Ok(arcs.into_boxed_slice())
 }
 
-impl<P: SubgoalPlacement> PreparedSubgoals<P> {
-    /// The bytes of the labels or of the graph, for [`from_bytes`](Self::from_bytes); where neither is kept,
-    /// an identity and a code.
-    #[must_use]
-    pub fn to_bytes(&self) -> Vec<u8> {
-        match self {
-            Self::Labels(labels) => labels.to_bytes(),
-            Self::Contracted(graph) => graph.to_bytes(),
-            Self::Nothing(identity) => [&identity.to_bytes()[..], &NOTHING.to_le_bytes()].concat(),
-        }
-    }
-
-    /// Reads the bytes of [`to_bytes`](Self::to_bytes) for the same free space and k. A graph may have
-    /// levels.
-    ///
-    /// # Errors
-    /// As for [`HubLabels::from_bytes`] and [`SubgoalGraph::from_bytes`].
-    pub fn from_bytes(space: &FreeSpace<P>, k: impl Into<K>, bytes: &[u8]) -> Result<Self, SubgoalError> {
-        Self::from_bytes_interruptible(space, k, bytes, &Interrupt::NEVER)
-    }
-
-    /// [`from_bytes`](Self::from_bytes), which an interrupt can stop.
-    ///
-    /// # Errors
-    /// As for [`from_bytes`](Self::from_bytes), and [`SubgoalError::Interrupted`].
-    pub fn from_bytes_interruptible(
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        bytes: &[u8],
-        interrupt: &Interrupt,
-    ) -> Result<Self, SubgoalError> {
-        let k = k.into();
-        let identity = Identity { k: Some(k), ..space.identity() };
-        let rest = after_identity(bytes, identity)?;
-        match rest.split_first_chunk().map(|(&code, rest)| (u32::from_le_bytes(code), rest)) {
-            Some((LABELS, _)) => {
-                HubLabels::from_bytes_interruptible(space, k, bytes, interrupt).map(Self::Labels)
-            }
-            Some((NOTHING, [])) => P::check(space, k).map(|()| Self::Nothing(identity)),
-            _ => SubgoalGraph::from_bytes_interruptible(space, k, bytes, interrupt).map(Self::Contracted),
-        }
-    }
-}
-
 /// The code of [hub labels](crate::HubLabels), which are no graph.
 pub(crate) const LABELS: u32 = u32::MAX - 1;
 
-/// The code where [nothing](PreparedSubgoals::Nothing) was kept.
-const NOTHING: u32 = u32::MAX - 2;
+/// The code where [nothing](crate::PreparedSubgoals::Nothing) was kept.
+pub(crate) const NOTHING: u32 = u32::MAX - 2;
 
 /// The least code of what has no number of levels.
 pub(crate) const LEAST_CODE: u32 = NOTHING;

@@ -12,7 +12,6 @@ use crate::{
     error::SubgoalError,
     hierarchy::Hierarchy,
     placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement, VertexRun},
-    worth::{self, Compare},
 };
 
 /// Scratch memory for finding edges at corners.
@@ -41,15 +40,6 @@ impl EdgeTables for SightTables {
 impl SubgoalPlacement for Corners {}
 
 impl EdgeFinder for Corners {
-    fn with_unprepared(
-        space: &FreeSpace<Self>,
-        k: K,
-        interrupt: &Interrupt,
-        compare: &mut Compare<'_>,
-    ) -> Result<bool, Interrupted> {
-        worth::with_jumps_or_anya(space, k, interrupt, compare)
-    }
-
     const SHARES_SIGHT: bool = true;
 
     const SIDES: u32 = 2;

@@ -151,7 +151,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         match subgoals.id(at).filter(|_| *criterion == EdgeCriterion::Direct) {
             Some(id) => edges.push((id, Cost::ZERO)),
             None => {
-                let (k, criterion) = (*k, *criterion);
+                let (metric, k, criterion) = (*metric, *k, *criterion);
                 let context = BuildContext { space, subgoals, tables, metric, k, criterion };
                 P::edges_from(context, scratch, at, EdgeKind::Query, |id, cost| edges.push((id, cost)));
             }

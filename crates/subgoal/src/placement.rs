@@ -4,7 +4,7 @@ use mediant_grid::{BitMatrix, FreeSpace, Interrupt, Interrupted, Placement, Vect
 use mediant_moves::{Cost, K};
 use mediant_search::parts::Metric;
 
-use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals, worth::Compare};
+use crate::{error::SubgoalError, hierarchy::Hierarchy, subgoals::Subgoals};
 
 /// A placement that has subgoal graphs: [`Corners`](mediant_grid::Corners) has them for every k,
 /// [`Centers`](mediant_grid::Centers) for k = 2 and 3.
@@ -15,15 +15,6 @@ pub trait SubgoalPlacement: EdgeFinder {}
 /// Finds subgoals and edges. Public as [`SubgoalPlacement`] builds on it, but it cannot be named outside of
 /// this crate.
 pub trait EdgeFinder: Placement {
-    /// Calls `compare` with the fastest engine that prepares nothing, and returns what it says; false if
-    /// there is none for this k.
-    fn with_unprepared(
-        space: &FreeSpace<Self>,
-        k: K,
-        interrupt: &Interrupt,
-        compare: &mut Compare<'_>,
-    ) -> Result<bool, Interrupted>;
-
     /// Whether subgoals, and what each vertex sees of them, are the same for every k.
     const SHARES_SIGHT: bool;
 
@@ -154,7 +145,7 @@ pub struct BuildContext<'m, P: EdgeFinder> {
     pub(crate) space: &'m FreeSpace<P>,
     pub(crate) subgoals: &'m Subgoals,
     pub(crate) tables: &'m P::Tables,
-    pub(crate) metric: &'m Metric,
+    pub(crate) metric: Metric,
     pub(crate) k: K,
     pub(crate) criterion: EdgeCriterion,
 }

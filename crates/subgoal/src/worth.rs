@@ -3,17 +3,12 @@
 //! In noise and on open ground with sparse obstacles there is no hierarchy: most subgoals stay in the core,
 //! and each search goes through it. Whether that is faster than an engine that prepares nothing depends on
 //! the map, by a factor of five either way. So both answer the same few queries, and their work is compared;
-//! it is counted, so that the same map gives the same index everywhere. That engine is block-based JPS up to
-//! k = 3, and Anya beyond.
+//! it is counted, so that the same map gives the same index everywhere. The caller has that engine:
+//! block-based JPS up to k = 3, and Anya beyond.
 
-use std::sync::Arc;
-
-use mediant_grid::{Corners, FreeSpace, GridGraph, Interrupt, Interrupted, Placement, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, Vertex};
 use mediant_moves::{FiniteK, K};
-use mediant_search::{
-    Anya, BlockJps, Counters, Ends, Hk, JumpError, Planner, Pruning,
-    parts::{BlockFinder, count_work},
-};
+use mediant_search::{Counters, Ends, parts::count_work};
 
 use crate::{graph::SubgoalGraph, placement::SubgoalPlacement, planner::SubgoalAStar};
 
@@ -40,57 +35,9 @@ impl Comparison {
     const SCANNED_OF_AN_ARC: u64 = 3;
 }
 
-/// Answers a query and counts its work; `None` if it cannot. It may be interrupted.
+/// Answers a query by an engine that prepares nothing, and counts its work; `None` if it cannot. It may be
+/// interrupted.
 pub type Counted<'r> = dyn FnMut(Ends) -> Result<Option<Counters>, Interrupted> + 'r;
-
-/// Compares a graph with an engine.
-pub type Compare<'c> = dyn FnMut(&mut Counted<'_>) -> Result<bool, Interrupted> + 'c;
-
-/// Calls `compare` with the engine that prepares nothing: block-based JPS, for k ≤ 3.
-pub(crate) fn with_jumps<P: Placement>(
-    space: &FreeSpace<P>,
-    k: FiniteK,
-    interrupt: &Interrupt,
-    compare: &mut Compare<'_>,
-) -> Result<bool, Interrupted> {
-    let Ok(graph) = GridGraph::in_space(space, k) else { return Ok(false) };
-    let pruning = Arc::new(Pruning::interruptible(&graph, interrupt)?);
-    let jps = BlockFinder::interruptible(&graph, &pruning, interrupt)
-        .and_then(|blocks| Ok(BlockJps::with_finder(&graph, pruning, blocks, Hk)?));
-    match jps {
-        Ok(mut jps) => compare(&mut |query| counted(&mut jps, query, interrupt)),
-        Err(JumpError::Interrupted(interrupted)) => Err(interrupted),
-        Err(_) => Ok(false),
-    }
-}
-
-/// The same at corners: beyond k = 3, and at any angle, with Anya.
-pub(crate) fn with_jumps_or_anya(
-    space: &FreeSpace<Corners>,
-    k: K,
-    interrupt: &Interrupt,
-    compare: &mut Compare<'_>,
-) -> Result<bool, Interrupted> {
-    match k {
-        K::Any => {
-            let mut anya = Anya::new(space);
-            compare(&mut |query| counted(&mut anya, query, interrupt))
-        }
-        K::Finite(k) if k <= FiniteK::N8 => with_jumps(space, k, interrupt, compare),
-        K::Finite(k) => {
-            let Ok(mut anya) = Anya::over(space, k) else { return Ok(false) };
-            compare(&mut |query| counted(&mut anya, query, interrupt))
-        }
-    }
-}
-
-fn counted(
-    planner: &mut impl Planner,
-    query: Ends,
-    interrupt: &Interrupt,
-) -> Result<Option<Counters>, Interrupted> {
-    Ok(count_work(planner, query, interrupt)?.ok())
-}
 
 /// Whether the engine that prepares nothing takes less time than a search on the graph.
 pub(crate) fn is_outdone<P: SubgoalPlacement>(
@@ -110,7 +57,8 @@ pub(crate) fn is_outdone<P: SubgoalPlacement>(
     let of_a_core_node = (graph.core_arcs() / graph.core().max(1)) as u64;
     let [mut arcs, mut arcs_of_other] = [0, 0];
     for query in queries(space, by.queries) {
-        if let (Some(here), Some(there)) = (counted(&mut on_graph, query, interrupt)?, other(query)?) {
+        if let (Some(here), Some(there)) = (count_work(&mut on_graph, query, interrupt)?.ok(), other(query)?)
+        {
             arcs += here.expanded * of_a_core_node + here.generated * by.arcs_of_a_subgoal;
             arcs_of_other +=
                 there.expanded * by.arcs_of_an_expansion + there.scanned / Comparison::SCANNED_OF_AN_ARC;

@@ -10,7 +10,6 @@ use crate::{
     keywords::{Keywords, WISHES, entries, unknown_key},
     memory,
     planner::Planner,
-    space::vertices,
     types::JsAnswer,
 };
 
@@ -55,7 +54,7 @@ impl Planner {
         let mut state = self.idle()?;
         let inner = &mut state.inner;
         let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
-        memory::check("the search", vertices(inner.index().space().map()), bytes)?;
+        memory::check("the search", memory::vertices(inner.index().space().map()), bytes)?;
         let (query, rules) = (keywords.query(&start, &goal), inner.index().setup().rules());
         let mut other = match inner.except(&query, &exceptions) {
             Err(Error::Stopped { by, .. }) => {

@@ -55,6 +55,7 @@ mod picture;
 mod planner;
 #[cfg(feature = "full")]
 mod posthoc;
+mod prepare;
 #[cfg(feature = "full")]
 mod saved;
 #[cfg(feature = "full")]

@@ -1,5 +1,6 @@
 //! Whether there is room for what is asked: where memory cannot grow, WebAssembly stops for good.
 
+use mediant::Map;
 use wasm_bindgen::JsValue;
 
 use crate::errors::no_memory;
@@ -12,6 +13,11 @@ pub(crate) const INDEX: u64 = 32;
 pub(crate) const PLANNER: u64 = 32;
 /// In a field.
 pub(crate) const FIELD: u64 = 24;
+
+/// The most vertices that a map can have.
+pub(crate) fn vertices(map: &Map) -> u64 {
+    (u64::from(map.width()) + 1) * (u64::from(map.height()) + 1)
+}
 
 /// Checks that there is room for what takes so many bytes for each of so many vertices.
 pub(crate) fn check(what: &str, vertices: u64, bytes: u64) -> Result<(), JsValue> {

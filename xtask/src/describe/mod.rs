@@ -13,7 +13,7 @@ use std::{fs, path::PathBuf};
 use mediant_sets::root;
 use serde::Deserialize;
 
-use crate::{Error, tidy::Tree};
+use crate::{Error, tree::Tree};
 
 /// The file of the description, from the root.
 pub const FILE: &str = "docs/description.json";

@@ -3,7 +3,7 @@
 use std::{fmt::Write as _, path::PathBuf};
 
 use super::{Description, Parameter};
-use crate::tidy::Tree;
+use crate::tree::Tree;
 
 /// The names of types that stand for a list of words, by the parameter that has it first.
 fn alias(parameter: &Parameter) -> String {

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{finding::Finding, tree::Tree};
+use super::finding::Finding;
+use crate::tree::Tree;
 
 /// The most lines of comments in the project that may begin with a clause. It only falls: whoever rewords
 /// some lowers it to the number that is left.

@@ -7,7 +7,8 @@ use std::{
 
 use syn::Item;
 
-use super::{finding::Finding, tree::Tree};
+use super::finding::Finding;
+use crate::tree::Tree;
 
 pub(super) fn check(tree: &Tree, findings: &mut Vec<Finding>) {
     let sources: Vec<(&Path, &str)> = tree.texts(&["rs"]).collect();

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
-use super::{finding::Finding, links, tree::Tree};
-use crate::project::{Package, published};
+use super::{finding::Finding, links};
+use crate::{
+    project::{Package, published},
+    tree::Tree,
+};
 
 /// Checks the manifests of the crates, and the files that travel with their packages.
 #[must_use]

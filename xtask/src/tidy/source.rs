@@ -8,10 +8,8 @@ use syn::{
     visit::{self, Visit},
 };
 
-use super::{
-    finding::{Exception, Finding},
-    tree::Tree,
-};
+use super::finding::{Exception, Finding};
+use crate::tree::Tree;
 
 const FUNCTION_LINES: usize = 70;
 const FILE_LINES: usize = 500;

@@ -1,6 +1,7 @@
 //! Rules about any file: sizes, spaces, marks of unfinished work, and paths of one machine.
 
-use super::{finding::Finding, tree::Tree};
+use super::finding::Finding;
+use crate::tree::Tree;
 
 const LARGEST: usize = 512 << 10;
 

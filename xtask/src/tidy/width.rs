@@ -2,7 +2,8 @@
 
 use proc_macro2::{LineColumn, TokenStream, TokenTree};
 
-use super::{finding::Finding, tree::Tree};
+use super::finding::Finding;
+use crate::tree::Tree;
 
 /// The most characters that a line with prose has.
 const COLUMNS: usize = 110;

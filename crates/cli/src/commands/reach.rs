@@ -13,12 +13,12 @@ use crate::{
     failure::{Ending, Failure},
     map::NamedMap,
     run::{
-        distances::{csv, furthest, rounded},
+        distances::{csv, furthest},
         query_error::explain,
         report::motion_in_words,
     },
     terminal::{
-        numbers::{count, grouped},
+        numbers::{count, grouped, rounded},
         screen::{BOLD, Screen},
         text::printable,
     },

@@ -18,12 +18,11 @@ use crate::{
     failure::{Ending, Failure},
     map::NamedMap,
     run::{
-        distances::rounded,
         query_error::explain,
         report::{by_auto, falls_back, k_in_words, without_path},
     },
     terminal::{
-        numbers::{count, time},
+        numbers::{count, rounded, time},
         screen::{BOLD, Screen},
         table::{Align, TextTable},
         text::printable,

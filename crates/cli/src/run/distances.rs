@@ -13,7 +13,7 @@ use crate::{
     failure::{Ending, Failure},
     map::{NamedMap, file_name},
     terminal::{
-        numbers::count,
+        numbers::{count, rounded},
         screen::{BOLD, Screen},
         text::printable,
     },
@@ -67,9 +67,4 @@ pub(crate) fn csv(
     writeln!(out, "x,y,distance")?;
     let mut lines = distances.into_iter();
     lines.try_for_each(|(at, distance)| writeln!(out, "{},{},{}", at.x, at.y, rounded(distance)))
-}
-
-/// Rounded to billionths of a cell, since a sum of rounded costs is not more exact.
-pub(crate) fn rounded(distance: f64) -> f64 {
-    (distance * 1e9).round() / 1e9
 }

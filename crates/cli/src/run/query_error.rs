@@ -2,8 +2,7 @@
 
 use mediant::{PlacementKind, Vertex, errors::QueryError, grid::Grid};
 
-use super::distances::rounded;
-use crate::map::NamedMap;
+use crate::{map::NamedMap, terminal::numbers::rounded};
 
 /// A query error in words; for a blocked end they name the nearest free vertex, and the radius if that is the
 /// reason. Under `--world` they say it in meters, too.

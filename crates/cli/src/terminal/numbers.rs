@@ -1,4 +1,4 @@
-//! Numbers for people: times, counts and percentages.
+//! Numbers for people: times, counts, lengths and percentages.
 
 /// A time with three digits and a unit: `812 ns`, `1.23 µs`, `45.6 ms`.
 pub(crate) fn time(nanos: f64) -> String {
@@ -31,6 +31,11 @@ pub(crate) fn grouped(n: u64) -> String {
 /// `1 query`, `2 queries`.
 pub(crate) fn count(n: u64, one: &str, many: &str) -> String {
     format!("{} {}", grouped(n), if n == 1 { one } else { many })
+}
+
+/// A length, rounded to billionths of a cell, since a sum of rounded costs is not more exact.
+pub(crate) fn rounded(length: f64) -> f64 {
+    (length * 1e9).round() / 1e9
 }
 
 /// The excess of a ratio over 1, in percent with a sign: `+8.24 %`.

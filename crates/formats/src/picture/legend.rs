@@ -3,7 +3,7 @@
 use super::{
     Picture,
     color::{self, Rgb, hex},
-    svg::{escape, number},
+    markup::{escape, number},
     vertex_colors::range,
 };
 

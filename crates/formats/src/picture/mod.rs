@@ -7,6 +7,7 @@ mod encode;
 mod error;
 mod layout;
 mod legend;
+mod markup;
 mod outline;
 mod paint;
 mod raster;

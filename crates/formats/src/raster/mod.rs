@@ -1,5 +1,6 @@
 //! Pictures of maps, in shades of gray: PGM, PBM and PNG.
 
+mod cursor;
 pub(crate) mod error;
 mod netpbm;
 mod options;
@@ -22,8 +23,7 @@ use crate::{
     read::{ReadError, grid_of_checked_sides, read_regular},
 };
 use error::check_sides;
-use samples::Samples;
-use write::scaled;
+use samples::{Samples, scaled};
 
 /// A picture: for each pixel its shade, from 0 (black) to [`white`](Self::white), and, if the picture has
 /// it, its opacity. Row 0 is the top one.
@@ -273,6 +273,11 @@ impl Raster {
     #[must_use]
     pub fn shade(&self, x: u32, y: u32) -> Option<u32> {
         self.shades.get(self.index(x, y)?)
+    }
+
+    /// The shade of a pixel as a part of `largest`.
+    fn scaled_shade(&self, x: u32, y: u32, largest: u32) -> u32 {
+        scaled(self.shade(x, y).unwrap_or(0), self.white, largest)
     }
 
     /// The opacity of opaque pixels; `None` if all pixels of a picture of this kind are opaque.

@@ -2,7 +2,7 @@
 
 use mediant_grid::Interrupt;
 
-use super::{READING, RasterError, netpbm::Cursor, samples::Samples};
+use super::{READING, RasterError, cursor::Cursor, samples::Samples};
 
 /// Bits, which need no space between them; 1 is black.
 pub(super) fn bits(

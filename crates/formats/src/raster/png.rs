@@ -10,8 +10,7 @@ use png::{
 use super::{
     Opacities, READING, Raster, RasterError,
     error::check_sides,
-    samples::Samples,
-    write::{pack_bits, push_sample, scaled},
+    samples::{Samples, pack_bits, push_sample, scaled},
 };
 
 /// The most bytes that the decoder may allocate: for a row at a time, and for chunks that are not read here.

@@ -1,4 +1,4 @@
-//! One number a pixel, in as few bytes as the largest needs.
+//! One number a pixel, in as few bytes as the largest needs: in memory, and in the rows of a file.
 
 use std::collections::TryReserveError;
 
@@ -57,5 +57,34 @@ impl Samples {
             }
         }
         Ok(())
+    }
+}
+
+/// part / whole · largest, rounded, half up.
+pub(super) fn scaled(part: u32, whole: u32, largest: u32) -> u32 {
+    if whole == largest {
+        return part;
+    }
+    let [part, whole, largest] = [part, whole, largest].map(u64::from);
+    ((2 * part * largest + whole) / (2 * whole)) as u32
+}
+
+/// Adds a sample: one byte, or two where the largest needs them.
+pub(super) fn push_sample(row: &mut Vec<u8>, sample: u32, largest: u32) {
+    if largest > 0xff {
+        row.push((sample >> 8) as u8);
+    }
+    row.push(sample as u8);
+}
+
+/// Adds bits, the first of each byte highest; the last byte is filled with zeros.
+pub(super) fn pack_bits(row: &mut Vec<u8>, bits: impl Iterator<Item = bool>) {
+    for (x, bit) in bits.enumerate() {
+        if x % 8 == 0 {
+            row.push(0);
+        }
+        if let Some(byte) = row.last_mut() {
+            *byte |= u8::from(bit) << (7 - x % 8);
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{
     RosError,
-    flat::{YamlEntry, is_blank, skip_blank, take_scalar},
+    yaml::{YamlEntry, is_blank, skip_blank, take_scalar},
 };
 use crate::text::quote;
 

@@ -5,6 +5,7 @@ mod flat;
 mod flow;
 mod occupancy;
 mod settings;
+mod yaml;
 
 #[cfg(feature = "save")]
 use std::io::Write;

@@ -3,8 +3,8 @@
 use std::{fmt, fmt::Write as _};
 
 use super::{
-    RosError,
-    flat::{self, YamlEntry},
+    RosError, flat,
+    yaml::{self, YamlEntry},
 };
 use crate::{
     Fraction,
@@ -128,7 +128,7 @@ impl RosSettings {
     /// The text of a YAML file with these settings, in the order of `map_saver`.
     #[must_use]
     pub fn to_yaml(&self) -> String {
-        let mut yaml = format!("image: {}\nmode: {}\n", flat::quoted(&self.image), self.mode);
+        let mut yaml = format!("image: {}\nmode: {}\n", yaml::quoted(&self.image), self.mode);
         let [x, y, yaw] = self.origin;
         // Writing to a string cannot fail.
         let _ = write!(
@@ -169,7 +169,7 @@ impl<'a> Value<'a> {
 
     /// The value as one scalar, converted by `read`.
     fn scalar<T>(&self, expected: &'static str, read: impl FnOnce(&str) -> Option<T>) -> Result<T, RosError> {
-        flat::scalar(self.text).and_then(|text| read(&text)).ok_or_else(|| self.error(expected))
+        yaml::scalar(self.text).and_then(|text| read(&text)).ok_or_else(|| self.error(expected))
     }
 
     fn image(&self) -> Result<String, RosError> {
@@ -182,7 +182,7 @@ impl<'a> Value<'a> {
 
     fn origin(&self) -> Result<[f64; 3], RosError> {
         let numbers: Option<Vec<f64>> =
-            flat::list(self.text).and_then(|items| items.iter().map(|item| decimal(item)).collect());
+            yaml::list(self.text).and_then(|items| items.iter().map(|item| decimal(item)).collect());
         let origin = numbers.and_then(|numbers| numbers.try_into().ok());
         origin.ok_or_else(|| self.error("a list of three numbers, x, y and yaw"))
     }

@@ -7,6 +7,7 @@
 //! from the documentation, because their arguments must fit together in ways that only their callers ensure.
 
 mod interval;
+mod piece;
 mod polygon;
 mod row_summary;
 mod runs;

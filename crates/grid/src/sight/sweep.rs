@@ -4,6 +4,7 @@ use crate::{BitRow, Corners, FreeSpace, Vertex};
 
 use super::{
     interval::{IntervalEnd, Ray},
+    piece::{Edge, Piece, widens},
     row_summary::RowSummary,
     runs::row_ahead,
     targets::{Quadrants, Targets},
@@ -43,53 +44,6 @@ use super::{
 #[derive(Clone, Debug, Default)]
 pub struct VisibilitySweep {
     pending: Vec<Piece>,
-}
-
-/// An interval of a line that is seen. Its ends differ.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
-    pub(super) line: i32,
-    pub(super) left: Edge,
-    pub(super) right: Edge,
-}
-
-impl Piece {
-    /// Its first and last column of vertices; it may have none.
-    #[inline]
-    pub(super) const fn columns(&self) -> (i32, i32) {
-        (self.left.end.here.ceil(), self.right.end.here.floor())
-    }
-}
-
-/// An end of an interval.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edge {
-    pub(super) end: IntervalEnd,
-    /// Whether the end follows a vertical wall. Then it stays in its column, and becomes a ray where the wall
-    /// ends.
-    is_wall: bool,
-}
-
-impl Edge {
-    const fn ray(end: IntervalEnd) -> Self {
-        Self { end, is_wall: false }
-    }
-
-    const fn wall(x: i32) -> Self {
-        Self { end: IntervalEnd::standing(x), is_wall: true }
-    }
-
-    /// The end on the line that is `lines` lines further on, if nothing is in the way.
-    #[inline]
-    pub(super) const fn after(&self, lines: i32) -> Self {
-        Self { end: self.end.moved_to(self.end.after(lines)), ..*self }
-    }
-
-    /// The ray through the end, from a root in column `x`, `n` lines away.
-    #[inline]
-    fn as_ray(&self, x: i32, n: i32) -> Ray {
-        if self.is_wall { Ray { dx: self.end.here.floor() - x, dy: n } } else { self.end.ray }
-    }
 }
 
 /// A sweep over one half of the map: above or below the vertex.
@@ -387,10 +341,4 @@ impl<'t> Half<'t> {
         let widens = i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy);
         widens.then_some(Piece { line: piece.line + self.down, left, right })
     }
-}
-
-/// Whether the interval still has a length: a ray at one end may have met the wall at the other.
-#[inline]
-const fn widens([left, right]: [Edge; 2]) -> bool {
-    left.end.here.floor() < right.end.here.ceil()
 }

@@ -2,7 +2,7 @@
 
 use crate::{BitRow, Vertex};
 
-use super::{row_summary::RowSummary, sweep::Piece, targets::Targets};
+use super::{piece::Piece, row_summary::RowSummary, targets::Targets};
 
 /// A visitor of the intervals that a sweep follows.
 pub(super) trait Visitor<'m> {

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use mediant_moves::Neighborhood;
 
 use super::*;
-use crate::{CornerRule, Corners, DiagonalGap, Grid, footprint::Footprint};
+use crate::{Centers, CornerRule, Corners, DiagonalGap, Grid, footprint::Footprint};
 
 fn moves(k: u32) -> Vec<(Vector, Cost)> {
     let k = FiniteK::new(k).unwrap();

@@ -42,7 +42,7 @@ use crate::{
     engine::Engine,
     erased::Erased,
     error::Error,
-    goals::HasLabels,
+    labeled::HasLabels,
     option::Levels,
     setup::Setup,
     setup_error::SetupError,

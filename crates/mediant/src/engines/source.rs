@@ -3,7 +3,7 @@
 use mediant_grid::Interrupt;
 use mediant_subgoal::Progress;
 
-use crate::within::NEVER;
+use crate::never::NEVER;
 
 /// The sources of an index besides the setup and the space.
 #[derive(Clone, Copy)]

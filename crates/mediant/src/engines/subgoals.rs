@@ -15,8 +15,8 @@ use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
-    goals::{HasLabels, Labeled},
     index::Index,
+    labeled::{HasLabels, Labeled},
     map::Map,
     motion::Motion,
     option::{
@@ -270,7 +270,7 @@ fn prepared<P: SubgoalPlacement>(
             planner.count_work(query, interrupt)
         };
         let (progress, counted) = ((&progress, interrupt), &mut counted);
-        return Ok(PreparedSubgoals::compared(space, k, beside, most, progress, counted)?);
+        return Ok(PreparedSubgoals::within(space, k, beside, most, progress, counted)?);
     };
     let most = most(Memory::MAX);
     Ok(match (levels.hierarchy(), beside) {

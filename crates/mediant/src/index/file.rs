@@ -11,7 +11,7 @@ use mediant_moves::K;
 use super::Index;
 use crate::{
     configured::ConfiguredEngine, engine::Engine, engines::Source, error::Error, map::Map, motion::Motion,
-    setup_error::SetupError, space::Space, within::NEVER,
+    never::NEVER, setup_error::SetupError, space::Space,
 };
 
 impl Index {

@@ -21,8 +21,9 @@ use crate::{
     engine::Engine,
     engines::{self, Boxed, EngineIndex, Source},
     error::Error,
-    goals::HasLabels,
+    labeled::HasLabels,
     motion::Motion,
+    never::NEVER,
     option::{
         EngineOption, Levels, OptionValue,
         description::{LEVELS, SIDE},
@@ -30,7 +31,6 @@ use crate::{
     setup::Setup,
     setup_error::SetupError,
     space::Space,
-    within::NEVER,
 };
 
 /// An engine's preparation in a space, before the first query: nothing, a pruning rule, a jump table, dead

@@ -3,7 +3,7 @@
 use mediant_grid::{Interrupt, MapId, Mismatch};
 
 use super::{Index, Origin};
-use crate::{change::Change, engines::Source, error::Error, within::NEVER};
+use crate::{change::Change, engines::Source, error::Error, never::NEVER};
 
 impl Index {
     /// The index for the map after a change. It gives the same answers as one prepared anew. Clusters and

@@ -7,15 +7,15 @@ use std::{fmt, sync::Arc};
 use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Placement, Vertex};
 use mediant_search::{
     Answer, Counters, Ends, Guarantee, Observer, Path, Planner as _, Query, QueryError, Search, Smoothing,
-    parts::{Metric, count_work},
+    parts::count_work,
 };
 
 use crate::{
     configured::ConfiguredEngine,
     erased::{Dynamic, Erased},
     error::Error,
-    goals::Asked,
     index::Index,
+    labeled::Asked,
     map::Map,
     memory_check,
     setup::Setup,
@@ -50,8 +50,6 @@ pub struct Planner {
     guarantee: Guarantee,
     /// The search that was begun last.
     begun: Option<Search>,
-    /// Of the space's k; made when it is first needed.
-    metric: Option<Metric>,
     /// The many-goals search, on an index with hub labels.
     pub(crate) asked: Asked,
 }
@@ -118,7 +116,6 @@ impl Index {
             guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
             index: self.clone(),
             begun: None,
-            metric: None,
             asked: Asked::default(),
         }
     }

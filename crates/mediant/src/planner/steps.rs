@@ -2,14 +2,10 @@
 
 use mediant_grid::Vertex;
 use mediant_moves::K;
-use mediant_search::{Answer, Observer, Path, Query, QueryError, Search, parts::Metric};
+use mediant_search::{Answer, Observer, Path, Query, QueryError, Search};
 
 use super::Planner;
-use crate::{
-    erased::Dynamic,
-    setup::Setup,
-    space::{Placed, Space},
-};
+use crate::{erased::Dynamic, setup::Setup, space::Placed};
 
 /// # A search in steps
 ///
@@ -42,7 +38,7 @@ impl Planner {
         self.begun = None;
         let guarantee = self.search.guarantee();
         let space = self.index.space();
-        let metric = self.metric.get_or_insert_with(|| metric(space));
+        let metric = space.metric();
         // Smoothing connects nothing that the search does not.
         let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
         let (is_any_angle, query) = (unsmoothed.paths() == K::Any, query.into());
@@ -74,9 +70,9 @@ impl Planner {
         expansions: u64,
         mut observer: &mut dyn Observer,
     ) -> Result<Option<Answer>, QueryError> {
-        let Self { begun, search, metric, .. } = self;
-        let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
-        let answer = begun.step(&mut Dynamic(&mut **search), metric, expansions, &mut observer)?;
+        let Self { begun, search, .. } = self;
+        let begun = begun.as_mut().ok_or(QueryError::NotBegun)?;
+        let answer = begun.step(&mut Dynamic(&mut **search), expansions, &mut observer)?;
         answer.map(|answer| self.smoothed(Ok(answer))).transpose()
     }
 
@@ -90,9 +86,9 @@ impl Planner {
 
     /// Continues the search until there is an answer, and reports its events. The observer cannot pause it.
     pub(crate) fn finish_observed(&mut self, mut observer: &mut dyn Observer) -> Result<Answer, QueryError> {
-        let Self { begun, search, metric, .. } = self;
-        let (Some(begun), Some(metric)) = (begun, metric) else { return Err(QueryError::NotBegun) };
-        let answer = begun.finish(&mut Dynamic(&mut **search), metric, &mut observer);
+        let Self { begun, search, .. } = self;
+        let begun = begun.as_mut().ok_or(QueryError::NotBegun)?;
+        let answer = begun.finish(&mut Dynamic(&mut **search), &mut observer);
         self.smoothed(answer)
     }
 
@@ -124,10 +120,4 @@ impl Planner {
     pub fn expansions(&self) -> u64 {
         self.begun.as_ref().map_or(0, Search::expansions)
     }
-}
-
-/// The metric of a space's k.
-fn metric(space: &Space) -> Metric {
-    // No space has a k that is too large.
-    Metric::new(space.motion().k).unwrap_or(Metric::Euclidean)
 }

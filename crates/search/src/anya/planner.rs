@@ -86,7 +86,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S, LatticeNorm> {
     /// # Errors
     /// [`KError::TooLarge`] above [`CostTable::MAX_K`](mediant_moves::CostTable::MAX_K).
     pub fn over(space: S, k: FiniteK) -> Result<Self, KError> {
-        Ok(Self::with_norm(space, LatticeNorm::new(k, cost_table(k)?)))
+        Ok(Self::with_norm(space, LatticeNorm::new(k, cost_table(k)?.clone())))
     }
 }
 

@@ -227,13 +227,14 @@ impl<P: Placement> Pruning<P> {
     }
 
     /// Whether a path that arrives by move `by` at a vertex near a corner has a forced successor there.
-    #[inline]
+    #[inline(always)]
     fn has_forced(&self, trees: &ForcedTrees, graph: &GridGraph<P>, node: &ExpandedNode, by: usize) -> bool {
-        self.known_forced(node, by).unwrap_or_else(|| {
-            let forced = !trees.for_each_forced(by, graph.grid(), node.at, |_| false);
-            self.record_forced(node, by, forced);
-            forced
-        })
+        if let Some(known) = self.known_forced(node, by) {
+            return known;
+        }
+        let forced = !trees.for_each_forced(by, graph.grid(), node.at, |_| false);
+        self.record_forced(node, by, forced);
+        forced
     }
 
     #[inline]

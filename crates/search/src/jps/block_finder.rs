@@ -9,9 +9,9 @@ use super::{
     axial::AxialStops,
     dead_ends::NearGoal,
     diagonals::DiagonalStops,
+    error::JumpError,
     finder::{JumpContext, JumpFinder},
     planes::JumpPlanes,
-    table::JumpError,
     to_goal::ToGoal,
 };
 use crate::{
@@ -73,6 +73,28 @@ impl BlockFinder {
         &self.diagonals
     }
 
+    /// The goal as the successor of a node from which a path can make the first leg to it, if it can make the
+    /// second one, too.
+    #[inline]
+    pub(super) fn goal_beyond_turn<P: Placement>(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+    ) -> Option<Successor> {
+        let ToGoal { index, steps, then: (even, then_steps) } = context.to_goal;
+        let step = context.graph.step(index);
+        let (turn, cost) = (context.after(node, step, index, steps), step.cost * steps);
+        if then_steps == 0 {
+            return Some(turn.reached(cost, index));
+        }
+        if self.axial.legal_steps(turn.at, context.quarter(even)) < then_steps {
+            return None;
+        }
+        let beside = context.graph.step(even);
+        let goal = context.after(&turn, beside, even, then_steps);
+        Some(goal.reached(cost + beside.cost * then_steps, even))
+    }
+
     /// The memory that the finder of a grid graph uses, in bytes.
     #[must_use]
     pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
@@ -116,11 +138,6 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
     }
 
     #[inline]
-    fn by_words(&self) -> Option<&BlockFinder> {
-        Some(self)
-    }
-
-    #[inline]
     fn diagonal(
         &self,
         context: &JumpContext<'_, P>,
@@ -132,44 +149,22 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         let stops = (&*self.diagonals, self.reach > 0);
         context.diagonal_by_stops(self, stops, from, index, scanned, visit);
     }
-}
 
-impl<P: Placement> JumpContext<'_, P> {
-    /// The goal as the successor of a node, if that is in sight. The move that leads there first is one of
-    /// those by which a path goes on. Adds to `scanned` the number of its steps.
     #[inline]
-    pub(super) fn goal_in_sight(
+    fn goal_in_sight(
         &self,
-        blocks: &BlockFinder,
+        context: &JumpContext<'_, P>,
         node: &ExpandedNode,
         scanned: &mut u32,
     ) -> Option<Successor> {
-        let ToGoal { index, steps, .. } = self.to_goal;
+        let ToGoal { index, steps, .. } = context.to_goal;
         *scanned += steps;
         let can_make = if index & 1 == 1 {
-            let can_enter = |steps| self.can_enter(node, index, steps);
-            steps <= self.rules.limit && blocks.diagonals.can_make(node.at, index, steps, can_enter)
+            let can_enter = |steps| context.can_enter(node, index, steps);
+            steps <= context.rules.limit && self.diagonals.can_make(node.at, index, steps, can_enter)
         } else {
-            blocks.axial.legal_steps(node.at, self.quarter(index)) >= steps
+            self.axial.legal_steps(node.at, context.quarter(index)) >= steps
         };
-        if can_make { self.goal_beyond_turn(blocks, node) } else { None }
-    }
-
-    /// The goal as the successor of a node from which a path can make the first leg to it, if it can make the
-    /// second one, too.
-    #[inline]
-    pub(super) fn goal_beyond_turn(&self, blocks: &BlockFinder, node: &ExpandedNode) -> Option<Successor> {
-        let ToGoal { index, steps, then: (even, then_steps) } = self.to_goal;
-        let step = self.graph.step(index);
-        let (turn, cost) = (self.after(node, step, index, steps), step.cost * steps);
-        if then_steps == 0 {
-            return Some(turn.reached(cost, index));
-        }
-        if blocks.axial.legal_steps(turn.at, self.quarter(even)) < then_steps {
-            return None;
-        }
-        let beside = self.graph.step(even);
-        let goal = self.after(&turn, beside, even, then_steps);
-        Some(goal.reached(cost + beside.cost * then_steps, even))
+        if can_make { self.goal_beyond_turn(context, node) } else { None }
     }
 }

@@ -6,7 +6,6 @@ use mediant_grid::{GridGraph, Identity, Placement, Step, Vector, Vertex, VertexI
 use mediant_moves::Cost;
 
 use super::{
-    block_finder::BlockFinder,
     dead_ends::NearGoal,
     diagonals::DiagonalStops,
     to_goal::{GoalLegs, ToGoal, cross, dot},
@@ -111,10 +110,18 @@ pub trait JumpFinder<P: Placement>: Debug {
         context.step_diagonal(self, from, index, scanned, visit);
     }
 
-    /// Its finder of jumps by words, if it has one. Then a goal in sight is looked for at every node.
+    /// The goal as the successor of a node, if it looks for the goal at every node and that is in sight. The
+    /// move that leads there first is one of those by which a path goes on. Adds to `scanned` the number of
+    /// its steps.
     #[doc(hidden)]
     #[inline]
-    fn by_words(&self) -> Option<&BlockFinder> {
+    fn goal_in_sight(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        let _ = (context, node, scanned);
         None
     }
 
@@ -223,7 +230,7 @@ impl<P: Placement> JumpContext<'_, P> {
             return;
         }
         let step = self.graph.step(index);
-        let to_goal = GoalLegs::new(self, from.at, index);
+        let to_goal = GoalLegs::new(self.graph, from.at.to(self.goal), (index, self.beside(index)));
         let mut here = self.after(from, step, index, 1);
         let mut cost = step.cost;
         for n in 1.. {

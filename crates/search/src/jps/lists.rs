@@ -232,7 +232,7 @@ impl JumpLists {
             list = rest;
             let way = &context.to_goal;
             if (way.index == index) & (way.steps <= length)
-                && let Some(goal) = context.goal_beyond_turn(blocks, node)
+                && let Some(goal) = blocks.goal_beyond_turn(context, node)
             {
                 visit(goal);
                 return true;

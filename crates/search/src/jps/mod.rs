@@ -63,6 +63,7 @@ mod axial;
 mod block_finder;
 mod dead_ends;
 mod diagonals;
+mod error;
 mod finder;
 mod lists;
 mod planes;
@@ -79,6 +80,7 @@ mod tests;
 const DURING: &str = "finding where jumps lead";
 
 pub use block_finder::BlockFinder;
+pub use error::JumpError;
 pub use finder::{JumpFinder, StepwiseFinder};
 pub use planner::{BlockJps, Jps, JpsPlus, JumpPointSearch};
-pub use table::{JumpError, JumpTable};
+pub use table::JumpTable;

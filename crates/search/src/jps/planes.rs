@@ -5,10 +5,9 @@ use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
-    dead_ends::{DeadEndFinder, DeadEndRows, REACH},
+    dead_ends::{DeadEndRows, REACH, find::DeadEndFinder},
     diagonals::DiagonalStops,
     stop_rows::Leads,
-    table::JumpTable,
 };
 use crate::canonical::Pruning;
 
@@ -28,9 +27,12 @@ const VERTICES_A_JUMP_POINT: u64 = 4;
 const MOST_VERTICES: u64 = 1 << 22;
 
 impl JumpPlanes {
+    /// The largest k that has jumps by words.
+    pub(super) const MAX_K: u32 = 3;
+
     /// Checks that a grid graph has jumps by words.
     pub(super) fn check_k<P: Placement>(graph: &GridGraph<P>) -> Result<(), KError> {
-        let (k, max) = (graph.k().get(), JumpTable::MAX_K);
+        let (k, max) = (graph.k().get(), Self::MAX_K);
         if k > max { Err(KError::TooLarge { k: k.into(), max }) } else { Ok(()) }
     }
 

@@ -8,8 +8,9 @@ use mediant_moves::KError;
 use super::{
     block_finder::BlockFinder,
     dead_ends::NearGoal,
+    error::JumpError,
     finder::{JumpContext, JumpFinder, JumpRules, StepwiseFinder, in_order},
-    table::{JumpError, JumpTable},
+    table::JumpTable,
     to_goal::ToGoal,
 };
 use crate::{
@@ -240,8 +241,7 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         };
         let mut scanned = 0;
         if moves >> context.to_goal.index & 1 == 1
-            && let Some(blocks) = self.finder.by_words()
-            && let Some(goal) = context.goal_in_sight(blocks, &node, &mut scanned)
+            && let Some(goal) = self.finder.goal_in_sight(&context, &node, &mut scanned)
         {
             visit(goal);
             return scanned;

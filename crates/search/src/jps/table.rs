@@ -8,12 +8,10 @@
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
-use mediant_grid::{
-    GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Vector, Vertex, uninterrupted,
-};
+use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Placement, uninterrupted};
 use mediant_moves::KError;
 
-use super::{block_finder::BlockFinder, lists::JumpLists, planes::JumpPlanes};
+use super::{block_finder::BlockFinder, error::JumpError, lists::JumpLists, planes::JumpPlanes};
 use crate::canonical::Pruning;
 
 /// The jumps from all jump points of a grid graph: 2.8 to 5.6 bytes a vertex on the benchmark maps at k = 3.
@@ -45,54 +43,9 @@ pub struct JumpTable {
     lists: JumpLists,
 }
 
-/// A jump table that there is not, that belongs to another grid graph, or whose bytes are wrong.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum JumpError {
-    /// No jump table for this k.
-    #[error("a jump table needs k = 2 or 3: {0}")]
-    K(#[from] KError),
-    /// Something that was made for another grid graph.
-    #[error(transparent)]
-    Mismatch(#[from] Mismatch),
-    /// Bytes that do not begin with what they belong to.
-    #[error("these bytes are no jump table: they do not begin with what they belong to; build it anew")]
-    Bytes,
-    /// Too few or too many bytes.
-    #[error(
-        "a jump table of {found} bytes, where that of this graph has {expected}: it is cut off; build it anew"
-    )]
-    Length {
-        /// The number of bytes needed after what they belong to.
-        expected: usize,
-        /// The number of bytes given.
-        found: usize,
-    },
-    /// A list of jumps that does not fit the map.
-    #[error(
-        "the jump table has {found:#010x} in its list of jumps from {at}, where a path arrives by move \
-         ({}, {}), and that of this graph has {expected:#010x}: the table is damaged; build it anew",
-        by.x,
-        by.y
-    )]
-    Entry {
-        /// The vertex of the list.
-        at: Vertex,
-        /// The move by which a path arrives there.
-        by: Vector,
-        /// The word that follows from the map.
-        expected: u32,
-        /// The word given.
-        found: u32,
-    },
-    /// It was stopped before it was done.
-    #[error(transparent)]
-    Interrupted(#[from] Interrupted),
-}
-
 impl JumpTable {
     /// The largest k that has a table.
-    pub const MAX_K: u32 = 3;
+    pub const MAX_K: u32 = JumpPlanes::MAX_K;
 
     /// Finds the jumps on a grid graph.
     ///

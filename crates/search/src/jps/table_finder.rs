@@ -5,7 +5,6 @@ use std::sync::Arc;
 use mediant_grid::{Identity, Placement, Vertex};
 
 use super::{
-    block_finder::BlockFinder,
     dead_ends::NearGoal,
     finder::{JumpContext, JumpFinder},
     table::JumpTable,
@@ -13,7 +12,7 @@ use super::{
 use crate::successors::{ExpandedNode, KnownPath, Successor};
 
 /// Looks the jumps from jump points up. Where they are not known, it makes them as the
-/// [`BlockFinder`] does.
+/// [`BlockFinder`](super::BlockFinder) does.
 impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     fn identity(&self) -> Option<Identity> {
         Some(JumpTable::identity(self))
@@ -47,8 +46,13 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     }
 
     #[inline]
-    fn by_words(&self) -> Option<&BlockFinder> {
-        Some(self.blocks())
+    fn goal_in_sight(
+        &self,
+        context: &JumpContext<'_, P>,
+        node: &ExpandedNode,
+        scanned: &mut u32,
+    ) -> Option<Successor> {
+        self.blocks().goal_in_sight(context, node, scanned)
     }
 
     #[inline]

@@ -1,9 +1,7 @@
 //! How the goal lies from a vertex: by which moves a path comes to it where nothing is in the way.
 
-use mediant_grid::{Placement, Vector, Vertex};
+use mediant_grid::{GridGraph, Placement, Vector};
 use mediant_moves::FiniteK;
-
-use super::finder::JumpContext;
 
 /// The canonical path to the goal on an empty grid that begins with a given odd move: its two straight legs.
 #[derive(Clone, Copy)]
@@ -17,24 +15,24 @@ pub(super) struct GoalLegs {
 }
 
 impl GoalLegs {
-    /// The legs from a vertex, if the goal lies between the odd move and one of the even moves beside it.
+    /// The legs to a goal in this direction, if it lies between the odd move and one of the even moves beside
+    /// it.
     #[inline]
     pub(super) fn new<P: Placement>(
-        context: &JumpContext<'_, P>,
-        from: Vertex,
-        index: usize,
+        graph: &GridGraph<P>,
+        d: Vector,
+        (index, [before, after]): (usize, [usize; 2]),
     ) -> Option<Self> {
-        let (d, u) = (from.to(context.goal), context.graph.step(index).vector());
+        let u = graph.step(index).vector();
         // Less than a right angle lies between a move and the legs that begin with it.
         if dot(u, d) <= 0 {
             return None;
         }
         // Moves are ordered by their angle, so the sign says on which side of the odd move the goal lies.
         // Adjacent moves span a parallelogram of area 1: this is Cramer's rule without its denominator.
-        let [before, after] = context.beside(index);
         let across = cross(u, d);
         let index = if across > 0 { before } else { after };
-        let diagonal = cross(d, context.graph.step(index).vector()) * if across > 0 { 1 } else { -1 };
+        let diagonal = cross(d, graph.step(index).vector()) * if across > 0 { 1 } else { -1 };
         let legs = || Self { diagonal: diagonal as u32, index, axial: across.unsigned_abs() };
         (diagonal > 0).then(legs)
     }

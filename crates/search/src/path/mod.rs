@@ -197,3 +197,13 @@ impl fmt::Display for Path {
         Ok(())
     }
 }
+
+/// The size of a path, in words.
+pub(crate) struct Measured<'a>(pub(crate) &'a Path);
+
+impl fmt::Display for Measured<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (count, cost) = (self.0.len(), self.0.cost());
+        write!(f, "{count} waypoint{}, {cost:.2} cells", if count == 1 { "" } else { "s" })
+    }
+}

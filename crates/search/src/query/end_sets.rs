@@ -43,8 +43,8 @@ impl EndSets {
     /// the metric by which no path is shorter.
     pub(super) fn new<P: Placement>(
         space: &FreeSpace<P>,
-        metric: &Metric,
-        bound: &Metric,
+        metric: Metric,
+        bound: Metric,
         wishes: &Wishes,
     ) -> Result<Self, QueryError> {
         wishes.limits.check()?;
@@ -68,7 +68,7 @@ impl EndSets {
     fn add<P: Placement>(
         &mut self,
         space: &FreeSpace<P>,
-        bound: &Metric,
+        bound: Metric,
         starts: &[Vertex],
         goals: &[Vertex],
     ) {
@@ -87,8 +87,8 @@ impl EndSets {
     fn add_nearest<P: Placement>(
         &mut self,
         space: &FreeSpace<P>,
-        metric: &Metric,
-        bound: &Metric,
+        metric: Metric,
+        bound: Metric,
         starts: &[Vertex],
         wishes: &Wishes,
     ) {
@@ -114,7 +114,7 @@ impl EndSets {
 /// tolerance of a goal, and those to which blocked ends are moved.
 fn free_ends<P: Placement>(
     space: &FreeSpace<P>,
-    metric: &Metric,
+    metric: Metric,
     wishes: &Wishes,
     end: End,
     ends: &[Vertex],

@@ -4,7 +4,7 @@ use std::fmt;
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
 
-use super::error::QueryError;
+use super::{end::End, error::QueryError};
 
 /// The start and the goal of a path: a [`Query`](crate::Query) without wishes.
 ///
@@ -72,15 +72,6 @@ impl fmt::Display for Ends {
     }
 }
 
-/// One of the two ends of a query.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum End {
-    /// Its start.
-    Start,
-    /// Its goal.
-    Goal,
-}
-
 impl End {
     /// Checks that a vertex can be this end of a path: that it is a free vertex of the map.
     ///
@@ -102,14 +93,5 @@ impl End {
             true => QueryError::Blocked { end: self, at },
             false => QueryError::NothingFree { end: self, at },
         }
-    }
-}
-
-impl fmt::Display for End {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            Self::Start => "start",
-            Self::Goal => "goal",
-        })
     }
 }

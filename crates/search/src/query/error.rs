@@ -4,7 +4,7 @@ use std::fmt;
 
 use mediant_grid::Vertex;
 
-use super::ends::End;
+use super::end::End;
 
 /// An invalid query, or a planner that failed. `{:?}` shows the text of the error, too, since that is what a
 /// program prints that ends with it.

@@ -8,7 +8,11 @@ use std::{
 use mediant_grid::{Interrupt, StoppedBy, Vertex, names};
 use mediant_moves::Cost;
 
-use crate::{answer::Measured, limit::greatest_cost, path::Path, query::QueryError};
+use super::error::QueryError;
+use crate::{
+    limit::greatest_cost,
+    path::{Measured, Path},
+};
 
 /// Limits of a search. None is set at first; the first one that is met stops the search.
 ///

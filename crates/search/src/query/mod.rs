@@ -1,5 +1,6 @@
 //! Queries: the ends of a path, and wishes beyond them.
 
+mod end;
 mod end_sets;
 mod ends;
 mod error;
@@ -13,7 +14,8 @@ use std::fmt;
 use mediant_grid::Vertex;
 
 pub use self::{
-    ends::{End, Ends},
+    end::End,
+    ends::Ends,
     error::QueryError,
     limits::{Limit, Limits, Stopped},
     search::Search,

@@ -11,7 +11,7 @@ use crate::metric::Metric;
 /// Along a row, and along the column of `to`, both metrics grow with the distance, and none is less than it.
 pub(super) fn nearest<P: Placement>(
     space: &FreeSpace<P>,
-    metric: &Metric,
+    metric: Metric,
     to: Vertex,
     accepts: impl Fn(Vertex) -> bool,
 ) -> Option<(Cost, Vec<Vertex>)> {

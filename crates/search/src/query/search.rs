@@ -28,20 +28,19 @@ use crate::{
 /// ```
 /// use std::sync::Arc;
 /// use mediant_grid::{AsciiMap, Centers, CornerRule, GridGraph};
-/// use mediant_moves::{FiniteK, K};
+/// use mediant_moves::FiniteK;
 /// use mediant_search::{AStar, Answer, Hk, Planner, Query, Search, parts::Metric};
 ///
 /// let map = AsciiMap::parse("
 ///     ...#.
 ///     ...#.
 /// ")?;
-/// let k = FiniteK::N8;
-/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), k, CornerRule::Never)?;
-/// let (mut planner, metric) = (AStar::new(&graph, Hk), Metric::new(K::Finite(k))?);
+/// let graph = GridGraph::<Centers>::new(Arc::new(map.grid), FiniteK::N8, CornerRule::Never)?;
+/// let (mut planner, metric) = (AStar::new(&graph, Hk), Metric::new(FiniteK::N8.into())?);
 /// let query = Query::new((0, 0), (4, 1)).nearest();
-/// let mut search = Search::new(&graph, &metric, planner.guarantee(), query)?;
+/// let mut search = Search::new(&graph, metric, planner.guarantee(), query)?;
 /// let answer = loop {
-///     if let Some(answer) = search.step(&mut planner, &metric, 1, &mut ())? {
+///     if let Some(answer) = search.step(&mut planner, 1, &mut ())? {
 ///         break answer;
 ///     }
 /// };
@@ -51,6 +50,7 @@ use crate::{
 #[derive(Debug)]
 pub struct Search {
     ends: EndSets,
+    metric: Metric,
     guarantee: Guarantee,
     /// The pair that is searched, and whether the planner has begun with it.
     next: usize,
@@ -97,12 +97,12 @@ impl Search {
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
     pub fn new<P: Placement>(
         space: &FreeSpace<P>,
-        metric: &Metric,
+        metric: Metric,
         guarantee: Guarantee,
         query: Query,
     ) -> Result<Self, QueryError> {
         let wishes = query.into_wishes();
-        let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { &Metric::Euclidean };
+        let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { Metric::Euclidean };
         let ends = EndSets::new(space, metric, bound, &wishes)?;
         // A search that may be stopped leads forward to one of the goals first, since only then the best so
         // far begins at the start.
@@ -128,6 +128,7 @@ impl Search {
         Ok(Self {
             answer: ends.pairs.is_empty().then_some(Ok(Answer::Unreachable)),
             ends,
+            metric,
             guarantee,
             next: 0,
             has_begun: false,
@@ -148,13 +149,12 @@ impl Search {
     pub fn step(
         &mut self,
         planner: &mut impl Planner,
-        metric: &Metric,
         expansions: u64,
         observer: &mut impl Observer,
     ) -> Result<Option<Answer>, QueryError> {
         self.progress.step_end = self.progress.expansions.saturating_add(expansions);
         self.progress.is_step = true;
-        self.run(planner, metric, observer)
+        self.run(planner, observer)
     }
 
     /// Continues until the answer is there. The observer is not asked to pause.
@@ -164,12 +164,11 @@ impl Search {
     pub fn finish(
         &mut self,
         planner: &mut impl Planner,
-        metric: &Metric,
         observer: &mut impl Observer,
     ) -> Result<Answer, QueryError> {
         (self.progress.step_end, self.progress.is_step) = (u64::MAX, false);
         loop {
-            if let Some(answer) = self.run(planner, metric, observer)? {
+            if let Some(answer) = self.run(planner, observer)? {
                 return Ok(answer);
             }
         }
@@ -179,7 +178,6 @@ impl Search {
     fn run(
         &mut self,
         planner: &mut impl Planner,
-        metric: &Metric,
         observer: &mut impl Observer,
     ) -> Result<Option<Answer>, QueryError> {
         while self.answer.is_none() {
@@ -187,7 +185,7 @@ impl Search {
                 self.conclude();
                 break;
             };
-            let status = match self.search(pair, planner, metric, observer) {
+            let status = match self.search(pair, planner, observer) {
                 Ok(status) => status,
                 Err(error) => {
                     self.answer = Some(Err(error));
@@ -219,13 +217,12 @@ impl Search {
         &mut self,
         pair: Pair,
         planner: &mut impl Planner,
-        metric: &Metric,
         observer: &mut impl Observer,
     ) -> Result<SearchStatus, QueryError> {
         if !self.has_begun {
             let Pair { ends, least, .. } = pair;
             self.progress.goal = ends.goal;
-            self.progress.nearest = (metric.distance(ends.start.to(ends.goal)), ends.start);
+            self.progress.nearest = (self.metric.distance(ends.start.to(ends.goal)), ends.start);
             self.progress.least = least;
             self.progress.pause = self.progress.reason();
             // The number of expansions does not forbid a path that takes none.
@@ -234,7 +231,7 @@ impl Search {
                 return Ok(SearchStatus::Searching);
             }
         }
-        let mut watch = Watch { progress: &mut self.progress, metric, observer };
+        let mut watch = Watch { progress: &mut self.progress, metric: self.metric, observer };
         if let Backward::After(pairs, start) = self.backward
             && self.next == pairs
             && !self.has_begun

@@ -49,7 +49,7 @@ pub(super) struct Progress {
 /// An observer that counts, pauses at limits, and knows what is nearest to the goal.
 pub(super) struct Watch<'w, O> {
     pub(super) progress: &'w mut Progress,
-    pub(super) metric: &'w Metric,
+    pub(super) metric: Metric,
     pub(super) observer: &'w mut O,
 }
 

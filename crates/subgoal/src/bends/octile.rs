@@ -149,7 +149,7 @@ mod tests {
                 space: &space,
                 subgoals: &subgoals,
                 tables: &tables,
-                metric: &metric,
+                metric,
                 k,
                 criterion: EdgeCriterion::Direct,
             };

@@ -6,6 +6,7 @@
 //! however little is searched.
 
 mod evaluate;
+mod overlay_arc;
 mod priority;
 mod rounds;
 #[cfg(test)]
@@ -14,21 +15,10 @@ mod witness;
 
 use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 
+pub(crate) use self::overlay_arc::OverlayArc;
+
 use self::witness::{WitnessGraph, WitnessSearch};
 use crate::{arc::NONE, bends::BendRule};
-
-/// An arc of the overlay graph, which holds the subgoals that are not contracted yet: an edge or a shortcut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct OverlayArc {
-    pub(crate) cost: u128,
-    pub(crate) to: u32,
-    /// The contracted subgoal that a shortcut passes; [`NONE`] for an edge.
-    pub(crate) middle: u32,
-    /// The end of the first edge of the path that the arc stands for.
-    pub(crate) first: u32,
-    /// The beginning of its last edge.
-    pub(crate) last: u32,
-}
 
 /// The geometry of the subgoals that are contracted.
 pub(crate) trait SubgoalGeometry {

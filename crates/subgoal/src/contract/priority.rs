@@ -1,6 +1,6 @@
 //! Which subgoals are contracted before their neighbors.
 
-use super::OverlayArc;
+use super::overlay_arc::OverlayArc;
 
 /// The priorities of the subgoals: the lower, the earlier a subgoal is contracted.
 ///

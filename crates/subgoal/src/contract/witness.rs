@@ -2,7 +2,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use super::OverlayArc;
+use super::overlay_arc::OverlayArc;
 
 /// Searches for paths that avoid a subgoal: witnesses that it needs no shortcut.
 #[derive(Default)]

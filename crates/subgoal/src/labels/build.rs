@@ -7,6 +7,7 @@ use mediant_moves::K;
 
 use super::{
     Geometry, HubLabels,
+    chain::pack,
     merge::{Label, merge},
     pack::{Packed, in_cells},
     whole::keep_whole,
@@ -15,118 +16,11 @@ use crate::{
     build::Ground,
     contract::{ContractedGraph, SubgoalGeometry},
     error::SubgoalError,
-    graph::SubgoalGraph,
     hierarchy::Hierarchy,
     placement::{BuildContext, SubgoalPlacement},
     progress::{Progress, Stage},
     seen::SeenIndex,
-    worth::{self, Counted},
 };
-
-/// Subgoals prepared within a budget of memory: hub labels where they fit, a contraction hierarchy where they
-/// do not. Both give optimal paths.
-#[derive(Clone, Debug)]
-pub enum PreparedSubgoals<P: SubgoalPlacement> {
-    /// Hub labels.
-    Labels(HubLabels<P>),
-    /// A contraction hierarchy.
-    Contracted(SubgoalGraph<P>),
-    /// Neither, and what they would belong to: the contraction left a large core, an engine that prepares
-    /// nothing is faster, and nothing was kept.
-    Nothing(Identity),
-}
-
-impl<P: SubgoalPlacement> PreparedSubgoals<P> {
-    /// Prepares a free space for paths over N(k), or at any angle. `most` is the memory that labels may take,
-    /// in bytes; a contraction hierarchy takes what it needs. The interrupt is asked for each row of the map
-    /// and each subgoal.
-    ///
-    /// # Errors
-    /// [`SubgoalError`] if the placement has no subgoal graph for this k and rule, if it would be too large,
-    /// or if it was stopped.
-    pub fn within(
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        most: usize,
-        progress: &(impl Fn(Progress) + Sync),
-        interrupt: &Interrupt,
-    ) -> Result<Self, SubgoalError> {
-        let k = k.into();
-        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
-        Self::new(space, k, None, most, (progress, interrupt), is_outdone)
-    }
-
-    /// [`within`](Self::within), beside the hub labels of the same free space for another k: at corners it
-    /// shares with them all but the labels.
-    ///
-    /// # Errors
-    /// As for [`within`](Self::within), and [`SubgoalError::Mismatch`] for labels of another free space.
-    pub fn beside(
-        labels: &HubLabels<P>,
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        most: usize,
-        progress: &(impl Fn(Progress) + Sync),
-        interrupt: &Interrupt,
-    ) -> Result<Self, SubgoalError> {
-        let k = k.into();
-        let is_outdone = |graph: &_| is_outdone(space, k, graph, interrupt);
-        Self::new(space, k, Some(labels), most, (progress, interrupt), is_outdone)
-    }
-
-    /// [`within`](Self::within), or [`beside`](Self::beside) labels, with `unprepared` as the engine that
-    /// prepares nothing: it answers a query and counts its work. It is asked only where labels do not fit.
-    /// (`within` and `beside` take [`BlockJps`](mediant_search::BlockJps) up to k = 3, at corners
-    /// [`Anya`](mediant_search::Anya) beyond.)
-    ///
-    /// # Errors
-    /// As for [`beside`](Self::beside).
-    pub fn compared(
-        space: &FreeSpace<P>,
-        k: impl Into<K>,
-        labels: Option<&HubLabels<P>>,
-        most: usize,
-        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
-        unprepared: &mut Counted<'_>,
-    ) -> Result<Self, SubgoalError> {
-        Self::new(space, k.into(), labels, most, (progress, interrupt), |graph| {
-            worth::is_outdone(space, graph, unprepared, interrupt)
-        })
-    }
-
-    fn new(
-        space: &FreeSpace<P>,
-        k: K,
-        beside: Option<&HubLabels<P>>,
-        most: usize,
-        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
-        is_outdone: impl FnOnce(&SubgoalGraph<P>) -> Result<bool, Interrupted>,
-    ) -> Result<Self, SubgoalError> {
-        let shared = shared(space, beside)?;
-        let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
-        let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
-        match parts(space, &ground, shared, &contracted, most, (progress, interrupt)) {
-            Ok(parts) => return Ok(Self::Labels(HubLabels::from_parts(space, ground, parts))),
-            Err(error @ SubgoalError::Interrupted(_)) => return Err(error),
-            // There is no room for labels.
-            Err(_) => {}
-        }
-        let graph = ground.into_graph(space, Hierarchy::Contracted, &contracted, interrupt)?;
-        Ok(if is_outdone(&graph)? { Self::Nothing(graph.identity()) } else { Self::Contracted(graph) })
-    }
-}
-
-/// Whether the fastest engine that prepares nothing takes less time than a search on a graph.
-fn is_outdone<P: SubgoalPlacement>(
-    space: &FreeSpace<P>,
-    k: K,
-    graph: &SubgoalGraph<P>,
-    interrupt: &Interrupt,
-) -> Result<bool, Interrupted> {
-    P::with_unprepared(space, k, interrupt, &mut |unprepared| {
-        worth::is_outdone(space, graph, unprepared, interrupt)
-    })
-}
 
 impl<P: SubgoalPlacement> HubLabels<P> {
     /// The hub labels of a free space for paths over N(k), or at any angle. `most` is the memory that they
@@ -168,31 +62,27 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         most: usize,
         (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
     ) -> Result<Self, SubgoalError> {
-        let shared = shared(space, beside)?;
+        beside.map_or(Ok(()), |labels| labels.check(space))?;
         let ground = Ground::new(space, k, Hierarchy::Contracted, interrupt)?;
         let contracted = ground.contracted(space, Hierarchy::Contracted, progress, interrupt)?;
-        let parts = parts(space, &ground, shared, &contracted, most, (progress, interrupt))?;
-        Ok(Self::from_parts(space, ground, parts))
+        Self::of_contraction(space, &ground, &contracted, beside, most, (progress, interrupt))
     }
 
-    fn from_parts(
+    /// The hub labels of a contraction, beside those of the same free space for another k.
+    pub(crate) fn of_contraction(
         space: &FreeSpace<P>,
-        ground: Ground<P>,
-        (geometry, packed): (Arc<Geometry>, Packed),
-    ) -> Self {
-        let Ground { metric, criterion, k, .. } = ground;
+        ground: &Ground<P>,
+        contracted: &ContractedGraph,
+        beside: Option<&Self>,
+        most: usize,
+        (progress, interrupt): (&(impl Fn(Progress) + Sync), &Interrupt),
+    ) -> Result<Self, SubgoalError> {
+        let shared = beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry);
+        let (geometry, packed) = parts(space, ground, shared, contracted, most, (progress, interrupt))?;
+        let Ground { metric, criterion, k, .. } = *ground;
         let identity = Identity { k: Some(k), ..space.identity() };
-        Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData }
+        Ok(Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData })
     }
-}
-
-/// The geometry that labels for another k share with these, if these belong to the free space.
-fn shared<'s, P: SubgoalPlacement>(
-    space: &FreeSpace<P>,
-    beside: Option<&'s HubLabels<P>>,
-) -> Result<Option<&'s Arc<Geometry>>, SubgoalError> {
-    beside.map_or(Ok(()), |labels| labels.check(space))?;
-    Ok(beside.filter(|_| P::SHARES_SIGHT).map(|labels| &labels.geometry))
 }
 
 /// The geometry, which is that of the map, and the labels.
@@ -223,7 +113,7 @@ fn parts<P: SubgoalPlacement>(
     let most_labels = rest / size_of::<u64>();
     let labels = whole_labels(context, contracted, most_labels, &mut report(Stage::Labels), interrupt)?;
     let labels = labels.ok_or_else(more)?;
-    let packed = Packed::new(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
+    let packed = pack(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
     if packed.memory_bytes() <= rest { Ok((geometry, packed)) } else { Err(more()) }
 }
 

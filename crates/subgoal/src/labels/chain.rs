@@ -10,11 +10,26 @@ use std::marker::PhantomData;
 use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::pack::Packed;
-use crate::{chunks::in_chunks, placement::EdgeFinder, subgoals::Subgoals};
+use super::{merge::Label, pack::Packed};
+use crate::{
+    chunks::in_chunks,
+    placement::{BuildContext, EdgeFinder},
+    subgoals::Subgoals,
+};
 
 /// The byte of a label whose successor has to be searched for.
 const SEARCH: u8 = u8::MAX;
+
+/// Packs the labels of all subgoals, each with the label that comes after it; `None` if a cost is too large.
+pub(super) fn pack<P: EdgeFinder>(
+    context: BuildContext<'_, P>,
+    labels: &[Vec<Label>],
+    interrupt: &Interrupt,
+) -> Result<Option<Packed>, Interrupted> {
+    let Some(packed) = Packed::new(context, labels, interrupt)? else { return Ok(None) };
+    let following = Chains::<P>::new(&packed, context.subgoals, context.k).following(interrupt)?;
+    Ok(Some(Packed { following, ..packed }))
+}
 
 /// Follows labels to their hubs.
 pub(super) struct Chains<'l, P> {

@@ -51,9 +51,8 @@ use mediant_grid::{Identity, Mismatch};
 use mediant_moves::K;
 use mediant_search::parts::{HasFreeSpace, Metric};
 
-pub(crate) use self::codec::{Reader, Writer};
 use self::pack::Packed;
-pub use self::{build::PreparedSubgoals, many::Goals, planner::HubLabelSearch};
+pub use self::{many::Goals, planner::HubLabelSearch};
 use crate::{
     placement::{EdgeCriterion, SubgoalPlacement},
     seen::SeenIndex,

@@ -3,12 +3,9 @@
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::{
-    Reader, Writer,
-    chain::Chains,
-    merge::{CutOff, Label},
-};
+use super::merge::{CutOff, Label};
 use crate::{
+    parts::{Reader, Writer},
     placement::{BuildContext, EdgeCriterion, EdgeFinder},
     subgoals::Subgoals,
 };
@@ -105,19 +102,8 @@ fn most_cost(cost_bits: u32) -> u64 {
 }
 
 impl Packed {
-    /// Packs the labels of all subgoals; `None` if a cost is too large.
+    /// Packs the labels of all subgoals, without what follows each of them; `None` if a cost is too large.
     pub(super) fn new<P: EdgeFinder>(
-        context: BuildContext<'_, P>,
-        labels: &[Vec<Label>],
-        interrupt: &Interrupt,
-    ) -> Result<Option<Self>, Interrupted> {
-        let Some(packed) = Self::without_following(context, labels, interrupt)? else { return Ok(None) };
-        let following = Chains::<P>::new(&packed, context.subgoals, context.k).following(interrupt)?;
-        Ok(Some(Self { following, ..packed }))
-    }
-
-    /// The labels without what follows each of them.
-    fn without_following<P: EdgeFinder>(
         context: BuildContext<'_, P>,
         labels: &[Vec<Label>],
         interrupt: &Interrupt,

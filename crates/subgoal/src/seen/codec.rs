@@ -3,7 +3,7 @@
 use mediant_grid::Interrupted;
 
 use super::{Block, SIDE, SeenEntry, SeenIndex};
-use crate::labels::{Reader, Writer};
+use crate::parts::{Reader, Writer};
 
 impl SeenIndex {
     pub(crate) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {

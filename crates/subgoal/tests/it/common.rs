@@ -3,9 +3,14 @@
 
 use std::{num::NonZeroU32, sync::Arc};
 
-use mediant_grid::{DiagonalGap, FreeSpace, Grid, Identity, Interrupt, Placement, Vertex};
+use mediant_grid::{
+    DiagonalGap, FreeSpace, Grid, GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex,
+};
 use mediant_moves::{Cost, FiniteK, K};
-use mediant_search::parts::Metric;
+use mediant_search::{
+    BlockJps, Counters, Ends, Hk, Planner,
+    parts::{Metric, count_work},
+};
 use mediant_subgoal::{Hierarchy, HubLabels, SubgoalGraph, SubgoalPlacement};
 
 pub(crate) const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
@@ -47,6 +52,27 @@ pub(crate) fn graph<P: SubgoalPlacement>(
 /// Hub labels, however much memory they take.
 pub(crate) fn labels<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> HubLabels<P> {
     HubLabels::within(space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there are labels for this k")
+}
+
+/// The work of a query, by an engine that prepares nothing.
+pub(crate) type Work<'i> = Box<dyn FnMut(Ends) -> Result<Option<Counters>, Interrupted> + 'i>;
+
+/// The work of a planner.
+pub(crate) fn work<'i>(mut planner: impl Planner + 'i, interrupt: &'i Interrupt) -> Work<'i> {
+    Box::new(move |query| Ok(count_work(&mut planner, query, interrupt)?.ok()))
+}
+
+/// The work of block-based JPS up to k = 3; none beyond.
+pub(crate) fn work_of_jumps<'i, P: Placement>(
+    space: &FreeSpace<P>,
+    k: K,
+    interrupt: &'i Interrupt,
+) -> Work<'i> {
+    let graph = k.finite().and_then(|k| GridGraph::in_space(space, k).ok());
+    match graph.and_then(|graph| BlockJps::new(Arc::new(graph), Hk).ok()) {
+        Some(jps) => work(jps, interrupt),
+        None => Box::new(|_| Ok(None)),
+    }
 }
 
 /// The length of a path whose straight parts are free, in fixed point.

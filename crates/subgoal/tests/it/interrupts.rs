@@ -5,7 +5,10 @@ use std::{num::NonZeroU32, sync::Arc};
 use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, StoppedBy};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, check_interrupts, noise, rooms};
+use mediant_search::Anya;
 use mediant_subgoal::{Hierarchy, HubLabels, PreparedSubgoals, SubgoalError, SubgoalGraph, SubgoalPlacement};
+
+use crate::common::{work, work_of_jumps};
 
 const SIDE: u32 = 24;
 
@@ -34,7 +37,10 @@ fn check<P: SubgoalPlacement>(grid: Grid, rule: P::Rule, k: K) {
     let read = |i: &Interrupt| HubLabels::from_bytes_interruptible(&space, k, &bytes, i);
     check_interrupts("labels' bytes", SIDE as usize, read, by);
     // Where labels do not fit, engines are compared.
-    let build = |i: &Interrupt| PreparedSubgoals::within(&space, k, 1000, &|_| {}, i);
+    let build = |i: &Interrupt| {
+        let jumps = &mut *work_of_jumps(&space, k, i);
+        PreparedSubgoals::within(&space, k, None, 1000, (&|_| {}, i), jumps)
+    };
     check_interrupts("what fits", 2 * subgoals, build, by);
 }
 
@@ -57,7 +63,14 @@ fn comparisons_stop() {
     let grid = Arc::new(noise(&mut Rng::new(5), 30, 30, 12));
     for k in [K::Any, FiniteK::N8.into(), FiniteK::N16.into()] {
         let space = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open);
-        let build = |i: &Interrupt| PreparedSubgoals::within(&space, k, 1000, &|_| {}, i);
+        let build = |i: &Interrupt| {
+            let mut unprepared = match k {
+                K::Any => work(Anya::new(&space), i),
+                K::Finite(FiniteK::N16) => work(Anya::over(&space, FiniteK::N16).expect("a small k"), i),
+                _ => work_of_jumps(&space, k, i),
+            };
+            PreparedSubgoals::within(&space, k, None, 1000, (&|_| {}, i), &mut *unprepared)
+        };
         check_interrupts("a comparison", 100, build, by);
         let built = |i: &Interrupt| build(i).expect("a graph or nothing").to_bytes();
         assert!(built(&Interrupt::NEVER) == built(&Interrupt::new().deadline(|| false)), "k = {k}");

@@ -12,8 +12,6 @@ use wasm_bindgen::{JsCast, prelude::*};
 use crate::{
     arguments::{Points, bytes, flag, integer, integer_32, room, text},
     errors::{argument, raised, wrong_type},
-    keywords::{Keywords, MOTION},
-    space::Space,
 };
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is in column x from the left and row y from
@@ -166,22 +164,6 @@ impl Grid {
         let value = |index: usize| each.get(index).map_or(all, |&cell| cell != 0);
         let cells = cells.into_iter().enumerate().map(|(index, cell)| (cell, value(index)));
         Ok(self.instead(self.map.edit_cells(cells).map_err(raised)?))
-    }
-
-    /// This map with rules of motion: what is searched. By default eight directions between the centers of
-    /// cells, without cutting corners.
-    ///
-    /// ```js
-    /// const space = grid.space({ k: "any" }); // any direction, between the corners of cells
-    /// ```
-    ///
-    /// @throws MediantError `motion` where no engine searches: k above 12, and centers at any angle.
-    pub fn space(
-        &self,
-        #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
-    ) -> Result<Space, JsValue> {
-        let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
-        Space::of(&self.map, motion, self.world)
     }
 
     /// A second handle to the same map, for arguments of calls.

@@ -11,7 +11,6 @@ use crate::{
     errors::{coded, raised},
     keywords::{ALL, Keywords, call_error},
     memory,
-    space::vertices,
     types::JsAnswer,
 };
 
@@ -90,7 +89,7 @@ impl Grid {
         let setup = self.map.setup(&keywords.call).map_err(call_error)?;
         if self.map.kept_planners(&setup).is_none() {
             let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
-            memory::check("the search", vertices(&self.map), bytes)?;
+            memory::check("the search", memory::vertices(&self.map), bytes)?;
         }
         let planners = match self.map.keep_planners(&setup, query.limits()) {
             Ok(planners) => planners,

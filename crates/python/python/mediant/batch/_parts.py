@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Union
 
 import pyarrow as pa
-import pyarrow.dataset as ds
 import pyarrow.parquet as pq
 
 from ._columns import is_path, narrow, table_of
+from ._parquet import fragments_of
 from ._solver import Solver, with_columns
 
-__all__ = ["Job", "Part", "job_of", "read", "run"]
+__all__ = ["Job", "Part", "job_of", "run"]
 
 FEWEST, MOST = 20_000, 100_000
 """The rows of a part, if nobody says how many. Fewer, and the overhead of a task is seen; more, and much is
@@ -107,7 +107,7 @@ def job_of(queries: Any, solver: Solver, rows: int | None, slots: int, to: Any) 
     if to is not None:
         _make_empty(Path(to))
     if is_path(queries):
-        fragments, schema = _fragments(queries)
+        fragments, schema = fragments_of(queries)
         solver.check(schema)
         total = sum(fragment.count_rows() for fragment in fragments)
         parts = list(_cut_files(fragments, schema, rows or _rows(total, slots)))
@@ -135,24 +135,8 @@ def run(solver: Solver, part: AnyPart, at: int, to: str | None) -> Any:
     return answer if to is None else _write(answer, Path(to) / f"part-{at:06}.parquet")
 
 
-def read(paths: Any) -> pa.Table:
-    """Read Parquet files, in the order that parts have."""
-    fragments, schema = _fragments(paths)
-    return pa.concat_tables(
-        [schema.empty_table(), *(fragment.to_table(schema=schema) for fragment in fragments)]
-    )
-
-
 def _rows(total: int, slots: int) -> int:
     return min(max(-(-total // (4 * slots)), FEWEST), MOST)
-
-
-def _fragments(paths: Any) -> tuple[list[Any], pa.Schema]:
-    several = isinstance(paths, (list, tuple))
-    where = [os.fspath(path) for path in paths] if several else os.fspath(paths)
-    dataset = ds.dataset(where, format="parquet", partitioning="hive")
-    fragments = list(dataset.get_fragments())
-    return fragments if several else sorted(fragments, key=lambda fragment: fragment.path), dataset.schema
 
 
 def _cut_files(fragments: Sequence[Any], schema: pa.Schema, rows: int) -> Iterator[OfFile]:

@@ -250,7 +250,7 @@ def solve(queries: Any, maps: Any, *, progress: Progress | None = None, **how: A
     'found'
     """
     if is_path(queries):
-        from ._parts import read  # noqa: PLC0415
+        from ._parquet import read  # noqa: PLC0415
 
         queries = read(queries)
     return Solver(maps, **how)(queries, progress=progress)

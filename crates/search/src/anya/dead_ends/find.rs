@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Interrupt, Interrupted};
 
-use super::{CellRun, DURING, Kinds};
+use super::runs::{CellRun, DURING, Kinds};
 
 /// The most cells of a dead end. Rooms are made of longer runs: single doors lead to them, so they are parts,
 /// and one run opens them. As dead ends they would be opened run by run for each query that ends there; on

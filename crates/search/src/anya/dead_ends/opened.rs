@@ -5,8 +5,9 @@ use std::sync::Arc;
 use mediant_grid::{BitMatrix, Grid, Vertex};
 
 use super::{
-    CellRun, DeadEnds,
+    DeadEnds,
     parts::{Part, Parts},
+    runs::CellRun,
 };
 
 /// A map without its dead ends, but with those that the query needs: the scratch memory of a planner.

@@ -21,7 +21,7 @@
 
 use mediant_grid::{BitMatrix, Interrupt, Interrupted};
 
-use super::{CellRun, DURING};
+use super::runs::{CellRun, DURING};
 
 /// The runs that are handled between two questions of an interrupt.
 const PIECE: usize = 1 << 14;

@@ -2,15 +2,17 @@
 
 use std::{collections::HashSet, sync::Arc};
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, VertexId, uninterrupted};
+use mediant_grid::{
+    Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Vertex, VertexId, uninterrupted,
+};
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, describe, noise, random_free_vertex, rooms, seeds, suite_grid, wide_grid};
 
-use super::*;
+use super::{Band, REACH};
 use crate::{
     AStar, BlockJps, Counters, Ends, Hk, JpsPlus, JumpTable, Planner, Zero,
-    canonical::Pruning,
-    jps::{BlockFinder, Jps, planes::JumpPlanes},
+    canonical::{Pruning, pattern_at},
+    jps::{BlockFinder, Jps, axial::AxialStops, planes::JumpPlanes},
     successors::{ExpandedNode, KnownPath, Successors},
 };
 

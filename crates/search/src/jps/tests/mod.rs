@@ -319,7 +319,7 @@ fn the_way_to_the_goal_is_that_of_the_moves() {
                     let steps = context.steps_to_goal(from, step.vector());
                     assert_eq!(to_goal.straight(index), steps, "{}", name());
                 } else {
-                    let legs = GoalLegs::new(&context, from, index);
+                    let legs = GoalLegs::new(graph, from.to(goal), (index, context.beside(index)));
                     // Where no axial leg follows, its direction says nothing.
                     let parts =
                         |(diagonal, even, axial)| (diagonal, axial, if axial == 0 { 0 } else { even });

@@ -14,7 +14,7 @@ use mediant_subgoal::{
     SubgoalError, SubgoalPlacement,
 };
 
-use crate::common::{GAPS, graph, k, labels, space};
+use crate::common::{GAPS, graph, k, labels, space, work_of_jumps};
 
 fn cave(gap: DiagonalGap) -> FreeSpace<Corners> {
     space(&caves(&mut Rng::new(7), 60, 50), gap)
@@ -73,7 +73,10 @@ fn told<P: SubgoalPlacement>(
 ) -> (PreparedSubgoals<P>, Vec<Progress>) {
     let told = Mutex::new(Vec::new());
     let tell = |progress| told.lock().expect("no one panicked").push(progress);
-    let prepared = PreparedSubgoals::within(space, k, most, &tell, &Interrupt::NEVER).expect("k is in range");
+    let never = &Interrupt::NEVER;
+    let jumps = &mut *work_of_jumps(space, k, never);
+    let prepared = PreparedSubgoals::within(space, k, None, most, (&tell, never), jumps);
+    let prepared = prepared.expect("k is in range");
     (prepared, told.into_inner().expect("no one panicked"))
 }
 
@@ -148,8 +151,9 @@ fn check_beside<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, other: K, looks
             fits,
             "{most} of {exact} bytes"
         );
-        let prepared =
-            PreparedSubgoals::beside(&first, space, other, most, &|_| {}, &Interrupt::NEVER).expect("any");
+        let quiet = (&|_| {}, &Interrupt::NEVER);
+        let prepared = PreparedSubgoals::within(space, other, Some(&first), most, quiet, &mut |_| Ok(None))
+            .expect("any");
         assert_eq!(matches!(prepared, PreparedSubgoals::Labels(_)), fits);
     }
 }
@@ -170,7 +174,9 @@ fn labels_for_another_k_share_what_is_seen() {
             .for_k(&other, k(3), usize::MAX, &|_| {}, &Interrupt::NEVER)
             .expect_err("they do not belong together");
         assert!(matches!(error, SubgoalError::Mismatch(_)), "{error}");
-        let error = PreparedSubgoals::beside(&first, &other, k(3), usize::MAX, &|_| {}, &Interrupt::NEVER);
+        let quiet = (&|_| {}, &Interrupt::NEVER);
+        let error =
+            PreparedSubgoals::within(&other, k(3), Some(&first), usize::MAX, quiet, &mut |_| Ok(None));
         assert!(matches!(error, Err(SubgoalError::Mismatch(_))));
     }
 }

@@ -1,4 +1,4 @@
-//! The files that the rules are about.
+//! The files of the project, with their contents.
 
 use std::{
     fs,
@@ -33,7 +33,7 @@ impl Tree {
     }
 
     /// All files.
-    pub(super) fn files(&self) -> impl Iterator<Item = (&Path, &[u8])> {
+    pub(crate) fn files(&self) -> impl Iterator<Item = (&Path, &[u8])> {
         self.files.iter().map(|(path, bytes)| (&**path, &**bytes))
     }
 
@@ -51,7 +51,7 @@ impl Tree {
     }
 
     /// Whether there is a file of this path, or one below it.
-    pub(super) fn holds(&self, path: &Path) -> bool {
+    pub(crate) fn holds(&self, path: &Path) -> bool {
         self.files.iter().any(|(file, _)| file.starts_with(path))
     }
 }
