@@ -5,7 +5,10 @@
 use std::num::NonZeroU32;
 
 #[cfg(feature = "publications")]
-use crate::option::published::{DETOUR, SECOND, STEP, VARIANT, Variant};
+use crate::option::{
+    Variant,
+    published::{DETOUR, SECOND, STEP, VARIANT},
+};
 use crate::{
     engine::Engine,
     engines::{
@@ -14,8 +17,8 @@ use crate::{
     },
     option::{
         EngineOption, HeuristicName, Levels, OptionValue,
-        description::{HEURISTIC, LEVELS, SIDE},
         slot::{Options, Slot},
+        table::{HEURISTIC, LEVELS, SIDE},
     },
     setup_error::SetupError,
 };

@@ -10,7 +10,7 @@ use super::Value;
 use crate::option::published;
 use crate::{
     demand::EngineName,
-    option::{EngineOption, ValueKind, description as option_table},
+    option::{EngineOption, ValueKind, table as option_table},
 };
 
 /// The spelling of names of several words in a language.

@@ -16,10 +16,9 @@ use crate::{
     engine::Engine,
     error::Error,
     option::{
-        Levels, OptionValue,
-        description::{LEVELS, SIDE},
-        if_published,
+        Levels, OptionValue, if_published,
         slot::{Field, Options, Slot},
+        table::{LEVELS, SIDE},
     },
     setup_error::SetupError,
     space::PlacementOfSpace as _,

@@ -16,16 +16,18 @@ use crate::{
     error::Error,
     heuristic::Admissible,
     option::{
-        HeuristicName, OptionValue,
-        description::SIDE,
-        if_published,
+        HeuristicName, OptionValue, if_published,
         slot::{Field, Options, Slot},
+        table::SIDE,
     },
     space::PlacementOfSpace as _,
 };
 #[cfg(feature = "publications")]
 use crate::{
-    option::published::{DETOUR, SECOND, STEP, Variant},
+    option::{
+        Variant,
+        published::{DETOUR, SECOND, STEP},
+    },
     setup_error::SetupError,
 };
 

@@ -13,8 +13,8 @@ use crate::{
     error::Error,
     option::{
         Levels, OptionValue,
-        description::LEVELS,
         slot::{Field, Options, Slot},
+        table::LEVELS,
     },
     setup_error::SetupError,
 };

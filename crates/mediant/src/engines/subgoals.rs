@@ -21,8 +21,8 @@ use crate::{
     motion::Motion,
     option::{
         Levels, Memory,
-        description::{LEVELS, MEMORY},
         slot::{Field, Options, Slot},
+        table::{LEVELS, MEMORY},
     },
     planner::Planner,
     setup::Setup,

@@ -26,7 +26,7 @@ use crate::{
     never::NEVER,
     option::{
         EngineOption, Levels, OptionValue,
-        description::{LEVELS, SIDE},
+        table::{LEVELS, SIDE},
     },
     setup::Setup,
     setup_error::SetupError,

@@ -6,13 +6,14 @@ mod memory;
 #[cfg(feature = "publications")]
 pub(crate) mod published;
 pub(crate) mod slot;
+pub(crate) mod table;
 mod value;
 
 pub use description::EngineOption;
 pub use levels::{Levels, UnknownLevels};
 pub use memory::{Memory, UnknownMemory};
 #[cfg(feature = "publications")]
-pub use published::Variant;
+pub use value::Variant;
 pub use value::{HeuristicName, OptionValue, ValueKind};
 
 /// A value with the feature `publications`, and one without.

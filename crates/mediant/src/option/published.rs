@@ -1,21 +1,6 @@
-//! The options that only reproduce publications, and the variants of engines that were published with a flaw.
-
-use mediant_grid::names;
+//! The options that only reproduce publications.
 
 use super::{description::EngineOption, value::ValueKind};
-
-/// The variants of an engine that was published with a flaw: repaired or as published.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Variant {
-    /// The repaired pruning rule of canonical A*, which is optimal.
-    Exact,
-    /// The repaired CHPA*, which finds a path whenever there is one.
-    Complete,
-    /// As published.
-    Paper,
-}
-
-names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");
 
 /// The variant of an engine.
 pub(crate) static VARIANT: EngineOption = EngineOption {

@@ -2,14 +2,15 @@
 
 use std::num::NonZeroU32;
 
-#[cfg(feature = "publications")]
-use super::published::{VARIANT, Variant};
 use super::{
-    description::{EngineOption, HEURISTIC},
+    description::EngineOption,
     levels::Levels,
     memory::Memory,
+    table::HEURISTIC,
     value::{HeuristicName, OptionValue},
 };
+#[cfg(feature = "publications")]
+use super::{published::VARIANT, value::Variant};
 use crate::{engine::Engine, setup_error::SetupError};
 
 /// The options of an engine. Setups as text, the program's flags and its records know them from this list

@@ -12,9 +12,6 @@ use super::{
 };
 use mediant_grid::{names, names::UnknownName};
 
-#[cfg(feature = "publications")]
-use super::published::Variant;
-
 /// The heuristic that guides a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum HeuristicName {
@@ -43,6 +40,21 @@ impl HeuristicName {
         if_published!(matches!(self, Self::SquaredEuclidean), else false)
     }
 }
+
+/// The variants of an engine that was published with a flaw: repaired or as published.
+#[cfg(feature = "publications")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Variant {
+    /// The repaired pruning rule of canonical A*, which is optimal.
+    Exact,
+    /// The repaired CHPA*, which finds a path whenever there is one.
+    Complete,
+    /// As published.
+    Paper,
+}
+
+#[cfg(feature = "publications")]
+names!(Variant: Exact => "exact", Complete => "complete", Paper => "paper");
 
 /// The kinds of value that options take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
