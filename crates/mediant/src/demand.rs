@@ -2,12 +2,8 @@
 //!
 //! `auto` is a word of calls, not an [`Engine`]: an engine has capabilities, options and a guarantee,
 //! prepares indexes and is named by what it made, and `auto` has none of these before it is known what is
-//! asked. So it stands beside the engines, in [`EngineName`], and is gone once a [`Demand`] has met a
-//! [`Space`].
-
-use std::{fmt, str::FromStr};
-
-use mediant_grid::names::{UnknownName, means};
+//! asked. So it stands beside the engines, in [`EngineName`](crate::options::EngineName), and is gone once a
+//! [`Demand`] has met a [`Space`].
 
 use crate::{
     choice::Choice,
@@ -120,68 +116,5 @@ impl Demand {
         let other = others.filter_map(|engine| with_options(engine).ok()).next();
         let why = "it takes the options that were given";
         other.map(|engine| (engine, Choice { engine: engine.kind(), why })).ok_or(refused)
-    }
-}
-
-/// The name of an engine, or `auto`, which is the best one for what is asked
-/// ([`Space::engine_for`]).
-///
-/// ```
-/// use mediant::{Engine, options::EngineName};
-/// assert_eq!("auto".parse(), Ok(EngineName::Auto));
-/// assert_eq!("JPS+".parse(), Ok(EngineName::Engine(Engine::JpsPlus)));
-/// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum EngineName {
-    /// `auto`.
-    #[default]
-    Auto,
-    /// An engine.
-    Engine(Engine),
-}
-
-impl EngineName {
-    /// Both kinds of names: `auto`, then all engines.
-    #[must_use]
-    pub fn all() -> Vec<Self> {
-        [Self::Auto].into_iter().chain(Engine::ALL.map(Self::Engine)).collect()
-    }
-
-    /// The name, as people and scripts write it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Auto => "auto",
-            Self::Engine(engine) => engine.name(),
-        }
-    }
-
-    /// The engine; `None` for `auto`.
-    #[must_use]
-    pub const fn engine(self) -> Option<Engine> {
-        match self {
-            Self::Auto => None,
-            Self::Engine(engine) => Some(engine),
-        }
-    }
-}
-
-impl fmt::Display for EngineName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
-
-impl FromStr for EngineName {
-    type Err = UnknownName;
-
-    fn from_str(text: &str) -> Result<Self, UnknownName> {
-        if means(text, Self::Auto.name()) {
-            return Ok(Self::Auto);
-        }
-        text.parse().map(Self::Engine).map_err(|UnknownName { found, known }| UnknownName {
-            found,
-            known: format!("{}, {known}", Self::Auto),
-        })
     }
 }

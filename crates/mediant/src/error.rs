@@ -16,7 +16,7 @@ use crate::{
     call::CallError,
     option::{Levels, Memory},
     setup_error::SetupError,
-    text::TextError,
+    setup_error::TextError,
 };
 
 /// Why something cannot be made, read, written, or asked.

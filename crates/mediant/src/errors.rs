@@ -13,5 +13,5 @@ pub use mediant_subgoal::SubgoalError;
 pub use crate::{
     absent::{NO_COSTS, absent},
     setup_error::SetupError,
-    text::TextError,
+    setup_error::TextError,
 };

@@ -134,6 +134,7 @@ mod configured;
 pub mod cookbook;
 mod demand;
 mod engine;
+mod engine_name;
 #[cfg_attr(not(feature = "all-engines"), expect(dead_code, reason = "left out, but for their options"))]
 mod engines;
 mod erased;
@@ -151,6 +152,7 @@ mod limits;
 mod map;
 mod memory_check;
 mod motion;
+mod motion_check;
 mod never;
 mod option;
 pub mod options;

@@ -2,10 +2,8 @@
 
 use std::fmt;
 
-use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, PlacementKind, Rules};
+use mediant_grid::{Centers, CornerRule, DiagonalGap, GridGraph, Rules};
 use mediant_moves::{FiniteK, K, KError};
-
-use crate::{error::Error, setup_error::SetupError};
 
 /// How an agent moves: where the vertices of its paths are, by which rule, and in which directions (k).
 ///
@@ -138,33 +136,8 @@ impl Motion {
     }
 
     /// The error of a number that is no k, if it was not replaced.
-    fn refused(self) -> Option<KError> {
+    pub(crate) fn refused(self) -> Option<KError> {
         self.refused.filter(|_| self.k == NO_K)
-    }
-
-    /// Checks that the k is one.
-    pub(crate) fn check_k(self) -> Result<(), Error> {
-        match self.refused() {
-            // The text of this one says which k there are.
-            Some(KError::TooLarge { .. }) => Err(SetupError::Motion { motion: self }.into()),
-            Some(error) => Err(error.into()),
-            None => Ok(()),
-        }
-    }
-
-    /// Checks that there are engines that search it.
-    pub(crate) fn check(self) -> Result<(), Error> {
-        self.check_k()?;
-        Ok(self.check_searched()?)
-    }
-
-    /// Checks that the k is not too large, and that it is not any angle between centers.
-    pub(crate) fn check_searched(self) -> Result<(), SetupError> {
-        let is_searched = match self.k {
-            K::Finite(k) => k.get() <= Self::MAX_K,
-            K::Any => self.rules.placement() == PlacementKind::Corner,
-        };
-        if is_searched { Ok(()) } else { Err(SetupError::Motion { motion: self }) }
     }
 }
 

@@ -5,7 +5,7 @@ pub use crate::option::Variant;
 pub use crate::{
     capabilities::{Capabilities, Promise},
     configured::ConfiguredEngine,
-    demand::EngineName,
+    engine_name::EngineName,
     engines::{
         CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
         SubgoalOptions, SubgoalThetaOptions,

@@ -5,8 +5,8 @@ use mediant_moves::K;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
 use crate::{
-    demand::EngineName,
     engine::Engine,
+    engine_name::EngineName,
     motion::Motion,
     option::{Levels, Memory},
     setup::Setup,

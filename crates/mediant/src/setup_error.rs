@@ -165,3 +165,11 @@ impl fmt::Debug for SetupError {
         fmt::Display::fmt(self, f)
     }
 }
+
+/// The error for a text that is no [`Setup`](crate::Setup): the form that was expected, and what is wrong.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected ENGINE[:K[:RULE]][,OPTION…], found `{found}`: {wrong}")]
+pub struct TextError {
+    pub(crate) found: String,
+    pub(crate) wrong: String,
+}

@@ -5,15 +5,10 @@ use std::{fmt, str::FromStr};
 use mediant_grid::{CornerRule, DiagonalGap, Rules};
 use mediant_search::Smoothing;
 
-use crate::{capabilities::Capabilities, engine::Engine, motion::Motion, option::EngineOption, setup::Setup};
-
-/// The error for a text that is no [`Setup`]: the form that was expected, and what is wrong.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("expected ENGINE[:K[:RULE]][,OPTION…], found `{found}`: {wrong}")]
-pub struct TextError {
-    found: String,
-    wrong: String,
-}
+use crate::{
+    capabilities::Capabilities, engine::Engine, motion::Motion, option::EngineOption, setup::Setup,
+    setup_error::TextError,
+};
 
 /// All that may be written for an option, for an error.
 fn option_forms() -> String {

@@ -20,7 +20,7 @@ pub(crate) struct Listed {
     pub(crate) index: usize,
     pub(crate) waypoints: Waypoints,
     /// The setup in the line of its run, if there is one.
-    pub(crate) said: Option<Said>,
+    pub(crate) said: Option<RunSetup>,
 }
 
 /// The waypoints of a path.
@@ -34,7 +34,7 @@ pub(crate) enum Waypoints {
 
 /// The setup in the first line of a run, which all its paths share.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Said {
+pub(crate) struct RunSetup {
     pub(crate) setup: Setup,
     /// The neighborhood whose moves make the segments of the paths.
     pub(crate) over: K,
@@ -71,13 +71,13 @@ struct RunLine {
 
 impl RunLine {
     /// The setup in the line; the error is in words.
-    fn said(&self) -> Result<Said, String> {
+    fn setup(&self) -> Result<RunSetup, String> {
         let k = self.k.as_str().map_or_else(|| self.k.to_string(), str::to_owned);
         let rule = if self.placement == "corner" { &self.gap } else { &self.corners };
         let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
         let setup = setup.map_err(|error| format!("the run: {error}"))?;
         let over = if self.smooth { K::Any } else { setup.paths() };
-        Ok(Said { setup, over, grounds: self.grounds })
+        Ok(RunSetup { setup, over, grounds: self.grounds })
     }
 }
 
@@ -141,7 +141,7 @@ fn jsonl(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
             wrong(format!("expected a line of `mediant run --format jsonl`: {what}"))
         })?;
         match line {
-            Line::Run(run) => said = Some(run.said().map_err(wrong)?),
+            Line::Run(run) => said = Some(run.setup().map_err(wrong)?),
             Line::Query { index, path } if !path.is_empty() => {
                 let waypoints = path.into_iter().map(Vertex::from).collect();
                 paths.push(Listed { index, waypoints: Waypoints::Vertices(waypoints), said });
@@ -240,7 +240,7 @@ mod tests {
                 smooth,
                 grounds: false,
             };
-            line.said()
+            line.setup()
         };
         let five: K = "5".parse().expect("a k");
         let plain = said("jps", "5", "center", false).expect("a run");

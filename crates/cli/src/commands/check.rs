@@ -10,7 +10,7 @@ use crate::{
     args::{CheckArgs, Format},
     check::{
         fault::Fault,
-        file::{Listed, Said, Waypoints, read, shown},
+        file::{Listed, RunSetup, Waypoints, read, shown},
     },
     failure::{Ending, Failure},
     map::NamedMap,
@@ -62,11 +62,11 @@ struct Rules {
 
 impl Rules {
     /// The rules of the arguments, else of the run, else the usual ones.
-    fn new(args: &CheckArgs, said: Option<Said>) -> Result<Self, Failure> {
+    fn new(args: &CheckArgs, said: Option<RunSetup>) -> Result<Self, Failure> {
         let call = &args.motion.0;
         let over = call.k()?.or(said.map(|said| said.over)).unwrap_or(K::Any);
         let motion = match said {
-            Some(Said { setup, .. }) => call.motion_from(setup.motion)?,
+            Some(RunSetup { setup, .. }) => call.motion_from(setup.motion)?,
             None => call.motion()?,
         };
         Ok(Self { motion, over })

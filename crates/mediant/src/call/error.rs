@@ -3,7 +3,7 @@
 use mediant_grid::names::UnknownName;
 use mediant_moves::KError;
 
-use super::{Parameter, Spelling};
+use super::{Parameter, Spelling, wrong::Wrong};
 use crate::setup_error::SetupError;
 
 /// The error for the parameters of a call. `Display` writes names in kebab-case, [`text`](Self::text) as
@@ -101,34 +101,14 @@ impl CallError {
     }
 }
 
-/// The error of a value, before its parameter is known.
-#[derive(Debug)]
-pub(super) enum Wrong {
-    Type { expected: String, found: String },
-    Value(String),
-    Name(UnknownName),
-    K(KError),
-}
-
-impl Wrong {
-    pub(super) fn of(self, parameter: &'static Parameter) -> CallError {
-        match self {
-            Self::Type { expected, found } => CallError::Type { parameter, expected, found },
-            Self::Value(wrong) => CallError::Value { parameter, wrong },
-            Self::Name(error) => CallError::Name { parameter, error },
-            Self::K(error) => CallError::K { parameter, error },
+impl CallError {
+    /// The error of a parameter with this mistake.
+    pub(super) fn of(parameter: &'static Parameter, wrong: Wrong) -> Self {
+        match wrong {
+            Wrong::Type { expected, found } => Self::Type { parameter, expected, found },
+            Wrong::Value(wrong) => Self::Value { parameter, wrong },
+            Wrong::Name(error) => Self::Name { parameter, error },
+            Wrong::K(error) => Self::K { parameter, error },
         }
-    }
-}
-
-impl From<UnknownName> for Wrong {
-    fn from(error: UnknownName) -> Self {
-        Self::Name(error)
-    }
-}
-
-impl From<KError> for Wrong {
-    fn from(error: KError) -> Self {
-        Self::K(error)
     }
 }

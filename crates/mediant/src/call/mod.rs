@@ -20,6 +20,7 @@ mod error;
 mod parameter;
 mod value;
 mod wishes;
+mod wrong;
 
 use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Rules};
 use mediant_moves::K;
@@ -31,7 +32,7 @@ pub use self::{
     value::Value,
     wishes::Wishes,
 };
-use self::{error::Wrong, parameter::Meaning};
+use self::{parameter::Meaning, wrong::Wrong};
 use crate::{
     choice::Choice,
     configured::ConfiguredEngine,
@@ -68,7 +69,7 @@ impl Call {
         if matches!(value, Value::Absent) {
             return Ok(());
         }
-        self.read(parameter, &value).map_err(|wrong| wrong.of(parameter))
+        self.read(parameter, &value).map_err(|wrong| CallError::of(parameter, wrong))
     }
 
     fn read(&mut self, parameter: &'static Parameter, value: &Value<'_>) -> Result<(), Wrong> {

@@ -9,7 +9,7 @@ use super::Value;
 #[cfg(feature = "publications")]
 use crate::option::published;
 use crate::{
-    demand::EngineName,
+    engine_name::EngineName,
     option::{EngineOption, ValueKind, table as option_table},
 };
 

@@ -5,10 +5,10 @@ use std::{borrow::Cow, fmt, str::FromStr};
 use mediant_grid::names::UnknownName;
 use mediant_moves::{FiniteK, K};
 
-use super::error::Wrong;
+use super::wrong::Wrong;
 use crate::{
-    demand::EngineName,
     engine::Engine,
+    engine_name::EngineName,
     option::{EngineOption, OptionValue, ValueKind},
 };
 

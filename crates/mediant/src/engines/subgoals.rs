@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
-use mediant_search::Ends;
+use mediant_search::{Ends, parts::count_work};
 use mediant_subgoal::{
     HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
 };
@@ -14,17 +14,17 @@ use crate::{
     choice::Choice,
     configured::ConfiguredEngine,
     engine::Engine,
+    erased::Dynamic,
     error::Error,
-    index::Index,
     labeled::{HasLabels, Labeled},
     map::Map,
+    memory_check,
     motion::Motion,
     option::{
         Levels, Memory,
         slot::{Field, Options, Slot},
         table::{LEVELS, MEMORY},
     },
-    planner::Planner,
     setup::Setup,
     setup_error::SetupError,
     space::{PlacementOfSpace, Space},
@@ -87,11 +87,12 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
         (source, beside): (Source<'_>, Option<&HubLabels<P>>),
         substitute: impl FnOnce(Setup, Source<'_>) -> Result<Arc<dyn EngineIndex>, Error>,
     ) -> Result<Self, Error> {
+        let other = Setup::new(substitute_for(motion), motion);
         let prepared = match source.bytes {
             Some(bytes) => {
                 PreparedSubgoals::from_bytes_interruptible(space, motion.k, bytes, source.interrupt)?
             }
-            None => prepared(own, motion, space, source, beside)?,
+            None => prepared(own, other, space, source, beside)?,
         };
         let free = Arc::clone(space);
         let kept = match prepared {
@@ -100,8 +101,7 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
             }
             PreparedSubgoals::Contracted(graph) => Kept::Graph(free, Arc::new(graph)),
             PreparedSubgoals::Nothing(identity) => {
-                let setup = Setup::new(substitute_for(motion), motion);
-                Kept::Nothing(identity, substitute(setup, Source { bytes: None, ..source })?)
+                Kept::Nothing(identity, substitute(other, Source { bytes: None, ..source })?)
             }
         };
         let index = Self::of(own, motion, kept)?;
@@ -242,32 +242,33 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
     }
 }
 
-/// Prepares the subgoals of a free space.
+/// Prepares the subgoals of a free space, beside hub labels for another k if there are some. `other` searches
+/// where subgoals do not pay.
 fn prepared<P: SubgoalPlacement>(
     SubgoalOptions { levels, memory }: SubgoalOptions,
-    motion: Motion,
+    other: Setup,
     space: &FreeSpace<P>,
     source: Source<'_>,
     beside: Option<&HubLabels<P>>,
 ) -> Result<PreparedSubgoals<P>, Error> {
     let Source { progress, interrupt, .. } = source;
-    let k = motion.k;
+    let k = other.k();
     let most = |default: Memory| memory.unwrap_or(default).as_usize();
     let Some(levels) = levels else {
         let grid = space.grid();
         let most = most(Memory::for_labels_of(grid.width(), grid.height()));
-        // Made only if it is asked. The planner of the library, which is compiled anyway.
-        let mut unprepared = None;
+        // Made only if it is asked.
+        let mut search = None;
         let mut counted = |query: Ends| {
-            let planner = match &mut unprepared {
-                Some(planner) => planner,
-                none => match substitute_of(motion, space, interrupt) {
-                    Ok(planner) => none.insert(planner),
+            let search = match &mut search {
+                Some(search) => search,
+                none => match search_in(space, other, interrupt) {
+                    Ok(search) => none.insert(search),
                     // Asked again, so that it is known what stopped it.
                     Err(_) => return interrupt.check("comparing engines").map(|()| None),
                 },
             };
-            planner.count_work(query, interrupt)
+            Ok(count_work(&mut Dynamic(&mut **search), query, interrupt)?.ok())
         };
         let (progress, counted) = ((&progress, interrupt), &mut counted);
         return Ok(PreparedSubgoals::within(space, k, beside, most, progress, counted)?);
@@ -283,16 +284,18 @@ fn prepared<P: SubgoalPlacement>(
     })
 }
 
-/// A planner by the engine that searches where no subgoals are kept: Anya as the typed crate measures it,
-/// with no dead ends left out.
-fn substitute_of<P: SubgoalPlacement>(
-    motion: Motion,
+/// A search of a setup in a space of its own, which goes with it: Anya as the typed crate measures it, with
+/// no dead ends left out.
+fn search_in<P: SubgoalPlacement>(
     space: &FreeSpace<P>,
+    setup: Setup,
     interrupt: &Interrupt,
-) -> Result<Planner, Error> {
-    let space = Space::new(&Map::from(Arc::clone(space.grid())), motion, interrupt)?;
+) -> Result<Boxed, Error> {
+    let space = Space::new(&Map::from(Arc::clone(space.grid())), setup.motion, interrupt)?;
     let source = Source { for_one_path: true, interrupt, ..Source::new(&|_| {}) };
-    Index::from_source(&space, substitute_for(motion).into(), source)?.try_planner()
+    let index = prepare(setup, &space, source)?;
+    memory_check::check("the planner", index.scratch_bytes() as u64)?;
+    index.search()
 }
 
 /// The engine that searches where no subgoals were kept: the best that prepares little.

@@ -4,10 +4,9 @@ mod steps;
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Placement, Vertex};
+use mediant_grid::{FreeSpace, Identity, Placement, Vertex};
 use mediant_search::{
     Answer, Counters, Ends, Guarantee, Observer, Path, Planner as _, Query, QueryError, Search, Smoothing,
-    parts::count_work,
 };
 
 use crate::{
@@ -242,16 +241,6 @@ impl Planner {
         let mut counters = Counters::default();
         let answer = self.find_observed(query, &mut counters)?;
         Ok((answer, counters))
-    }
-
-    /// The work of a plain query; `None` if it cannot be answered.
-    pub(crate) fn count_work(
-        &mut self,
-        ends: Ends,
-        interrupt: &Interrupt,
-    ) -> Result<Option<Counters>, Interrupted> {
-        self.begun = None;
-        Ok(count_work(&mut Dynamic(&mut *self.search), ends, interrupt)?.ok())
     }
 
     /// Smooths the path, if the planner smooths its paths.

@@ -102,7 +102,6 @@ const options: Options = {
   levels: "all",
   memory: "8MB",
   side: 8,
-  detour: 1.5,
   smooth: "linear",
 };
 const index: Index = space.prepare("hpa", options, (stage: string, done: number, of: number) => {
