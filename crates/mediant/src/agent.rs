@@ -58,7 +58,7 @@ impl Map {
         Ok(self.grid().for_square(n)?.into())
     }
 
-    /// How far each cell is from the nearest obstacle, and the maps of discs of all radii.
+    /// The distance of each cell to the nearest obstacle, and the maps of discs of all radii.
     #[must_use]
     pub fn clearance(&self, fit: Fit, outside: Outside) -> Clearance {
         Clearance::new(Arc::clone(self.grid()), fit, outside)

@@ -242,7 +242,8 @@ impl ConfiguredEngine {
         self.own_value(&STEP)?.number()
     }
 
-    /// How many times h_k the path to a checkpoint may cost; `None` for an engine without such a limit.
+    /// The greatest cost of the path to a checkpoint, as a multiple of h_k; `None` for an engine without
+    /// such a limit.
     #[cfg(feature = "publications")]
     #[must_use]
     pub fn detour(self) -> Option<NonZeroU32> {

@@ -35,7 +35,7 @@ pub struct Planners {
     idle: Mutex<Vec<Planner>>,
 }
 
-/// How far a batch of queries is; any thread may look, and cancel the rest.
+/// Progress of a batch of queries, for any thread to read; and a flag that cancels the rest.
 #[derive(Debug, Default)]
 pub struct BatchProgress {
     done: AtomicUsize,
@@ -63,7 +63,7 @@ impl BatchProgress {
 }
 
 impl Planners {
-    /// How many queries [`find_in_chunks`](Self::find_in_chunks) hands to a thread at once.
+    /// The number of queries that [`find_in_chunks`](Self::find_in_chunks) hands to a thread at once.
     pub const CHUNK: usize = 256;
 
     /// No planners yet, on this index.

@@ -47,7 +47,7 @@ pub struct ChpaOptions {
     /// Every how many segments there is a checkpoint (Pstep of Teleiša & Čalnerytė 2023); 2 by default.
     #[cfg(feature = "publications")]
     pub step: Option<NonZeroU32>,
-    /// How many times h_k the path to a checkpoint may cost before the search skips that checkpoint; that of
+    /// The greatest cost of the path to a checkpoint, as a multiple of h_k, before it is skipped; that of
     /// [`FallbackPolicy::default`] by default. Only for [`Variant::Complete`].
     #[cfg(feature = "publications")]
     pub detour: Option<NonZeroU32>,

@@ -82,7 +82,7 @@ pub(crate) static STEP: EngineOption = EngineOption {
     samples: &["1"],
 };
 
-/// How long the path to a checkpoint may be.
+/// The greatest length of the path to a checkpoint.
 pub(crate) static DETOUR: EngineOption = EngineOption {
     name: "detour",
     noun: "detour",
