@@ -172,3 +172,42 @@ impl fmt::Display for Answer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use mediant_moves::FiniteK;
+
+    use super::{Answer, Status};
+    use crate::{
+        guarantee::Guarantee,
+        path::Path,
+        query::{Limit, Stopped},
+    };
+
+    /// The status, and with a guarantee the distance and the lower bound.
+    fn told(answer: &Answer, guarantee: Guarantee) -> (Status, f64, f64) {
+        (answer.status(), answer.distance(guarantee), answer.lower_bound(guarantee))
+    }
+
+    #[test]
+    fn bounds_follow_from_the_kind_and_the_guarantee() {
+        let exact = Guarantee::Optimal(FiniteK::N8);
+        let path = || Path::new(vec![(0, 0).into(), (3, 0).into()]);
+        let found = Answer::Found(path());
+        assert_eq!(told(&found, exact), (Status::Found, 3.0, 3.0));
+        assert_eq!(told(&found, Guarantee::OptimalAnyAngle), (Status::Found, 3.0, 3.0));
+        for loose in [Guarantee::Suboptimal, Guarantee::AtMost(FiniteK::N8)] {
+            assert_eq!(told(&found, loose), (Status::Found, 3.0, 0.0));
+        }
+        let nearest = Answer::Nearest(path());
+        assert_eq!(told(&nearest, exact), (Status::Nearest, 3.0, f64::INFINITY));
+        let none = Answer::Unreachable;
+        assert_eq!(told(&none, exact), (Status::Unreachable, f64::INFINITY, f64::INFINITY));
+        let stopped = Answer::Stopped(Stopped::before_search(Limit::Expansions, (1, 1).into()));
+        assert!(stopped.distance(exact).is_nan() && stopped.path().is_none());
+        assert_eq!((stopped.lower_bound(exact), stopped.status()), (0.0, Status::Stopped));
+        assert_eq!(stopped.stopped_by(), Some(Limit::Expansions));
+        assert_eq!(stopped.best().map(Path::len), Some(1));
+        assert_eq!((found.stopped_by(), found.best().is_none()), (None, true));
+    }
+}
