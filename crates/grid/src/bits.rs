@@ -8,6 +8,8 @@ mod make;
 
 use std::fmt;
 
+use crate::versions::{VersionEdit, Versioned};
+
 /// The position of a bit in a [`BitMatrix`], frame included. Not a cell id: rows are padded to whole words.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +33,7 @@ impl BitIndex {
 /// and one below the last, and one word before and one after all rows.
 #[derive(Clone, PartialEq, Eq)]
 pub struct BitMatrix {
-    words: Box<[u64]>,
+    words: Versioned<u64>,
     width: u32,
     height: u32,
     words_per_row: u32,
@@ -50,7 +52,7 @@ impl BitMatrix {
         let words_per_row = width / 64 + 1;
         let words = (height as usize + 2) * words_per_row as usize + 2;
         let word = if value { !0 } else { 0 };
-        Self { words: vec![word; words].into_boxed_slice(), width, height, words_per_row }
+        Self { words: vec![word; words].into(), width, height, words_per_row }
     }
 
     /// The number of columns.
@@ -103,11 +105,19 @@ impl BitMatrix {
         &self.words[start..start + self.words_per_row as usize]
     }
 
-    /// Sets one bit within the frame.
-    pub(crate) fn set(&mut self, x: u32, y: u32, blocked: bool) {
-        let BitIndex(at) = self.index(x as i32, y as i32);
-        let word = &mut self.words[at as usize / 64];
-        *word = *word & !(1 << (at % 64)) | u64::from(blocked) << (at % 64);
+    /// Begins an edit of this matrix, which stays as it is.
+    pub(crate) fn edit(&self) -> MatrixEdit {
+        let &Self { width, height, words_per_row, .. } = self;
+        MatrixEdit {
+            empty: Self { words: Versioned::default(), width, height, words_per_row },
+            words: self.words.edit(),
+        }
+    }
+
+    /// Begins an edit of a matrix that nobody else needs: in place.
+    pub(crate) fn into_edit(mut self) -> MatrixEdit {
+        let words = std::mem::take(&mut self.words).into_edit();
+        MatrixEdit { empty: self, words }
     }
 
     /// Sets the bits of row y from column `first` on, up to column `end`, which is not one of them. All must
@@ -116,7 +126,8 @@ impl BitMatrix {
     /// Hidden: what reads a matrix may rely on more of its bits than these.
     #[doc(hidden)]
     pub fn set_run(&mut self, y: i32, first: i32, end: i32, blocked: bool) {
-        self.run(y, first, end).for_each(|word, bits| self.set_word(word, bits, blocked));
+        let (run, words) = (self.run(y, first, end), self.words.make_mut());
+        run.for_each(|word, bits| set_word(words, word, bits, blocked));
     }
 
     /// Sets the bits of column x from row `first` on, up to row `end`, which is not one of them. All must lie
@@ -125,7 +136,8 @@ impl BitMatrix {
     /// Hidden, as [`set_run`](Self::set_run) is.
     #[doc(hidden)]
     pub fn set_run_of_column(&mut self, x: i32, first: i32, end: i32, blocked: bool) {
-        self.run_of_column(x, first, end).for_each(|word, bits| self.set_word(word, bits, blocked));
+        let (run, words) = (self.run_of_column(x, first, end), self.words.make_mut());
+        run.for_each(|word, bits| set_word(words, word, bits, blocked));
     }
 
     /// [`set_run`](Self::set_run) (or, along a column, [`set_run_of_column`](Self::set_run_of_column)) in a
@@ -141,10 +153,11 @@ impl BitMatrix {
         blocked: bool,
     ) {
         let run = if is_vertical { self.run_of_column(line, first, end) } else { self.run(line, first, end) };
+        let (words, other, union) = (self.words.make_mut(), &*other.words, union.words.make_mut());
         run.for_each(|word, bits| {
-            self.set_word(word, bits, blocked);
-            let joined = self.words[word] | other.words[word];
-            union.words[word] = union.words[word] & !bits | joined & bits;
+            set_word(words, word, bits, blocked);
+            let joined = words[word] | other[word];
+            union[word] = union[word] & !bits | joined & bits;
         });
     }
 
@@ -155,12 +168,6 @@ impl BitMatrix {
     const fn run_of_column(&self, x: i32, first: i32, end: i32) -> BitRun {
         let step = self.words_per_row as usize;
         BitRun { from: self.index(x, first).0 as usize, to: self.index(x, end).0 as usize, step }
-    }
-
-    #[inline]
-    fn set_word(&mut self, word: usize, bits: u64, blocked: bool) {
-        let word = &mut self.words[word];
-        *word = if blocked { *word | bits } else { *word & !bits };
     }
 
     /// The bit of column x, row y; true everywhere beyond the edges.
@@ -213,6 +220,43 @@ impl BitMatrix {
         let keep = !0_u64 >> (63 - (last - x).clamp(0, 63));
         last >= x && word(x) & keep != 0
     }
+}
+
+/// The next version of a matrix while it is made.
+pub(crate) struct MatrixEdit {
+    /// The matrix without its words.
+    empty: BitMatrix,
+    words: VersionEdit<u64>,
+}
+
+impl MatrixEdit {
+    /// Changes the bit of column x, row y to the other value.
+    pub(crate) fn flip(&mut self, x: u32, y: u32) {
+        let BitIndex(at) = self.empty.index(x as i32, y as i32);
+        let word = at as usize / 64;
+        self.words.set(word, self.words.words()[word] ^ 1 << (at % 64));
+    }
+
+    /// Gives the bits of row y that `mask` names, from column x on, a multiple of 64, these values. Returns the
+    /// word before and after.
+    pub(crate) fn set_bits(&mut self, (x, y): (u32, u32), mask: u64, bits: u64) -> [u64; 2] {
+        let word = self.empty.index(x as i32, y as i32).0 as usize / 64;
+        let before = self.words.words()[word];
+        let after = before & !mask | bits & mask;
+        self.words.set(word, after);
+        [before, after]
+    }
+
+    /// The next version.
+    pub(crate) fn finish(self) -> BitMatrix {
+        BitMatrix { words: self.words.finish(), ..self.empty }
+    }
+}
+
+#[inline]
+fn set_word(words: &mut [u64], word: usize, bits: u64, blocked: bool) {
+    let word = &mut words[word];
+    *word = if blocked { *word | bits } else { *word & !bits };
 }
 
 /// Bits of a row or of a column.

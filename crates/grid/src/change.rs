@@ -1,8 +1,8 @@
 //! Edits of a map, as values.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::sync::Arc;
 
-use crate::{Grid, Rectangle};
+use crate::{Grid, Rectangle, grid::GridEdit};
 
 /// An edit: the map before, the map after, and the cells between. It begins with a map that is not changed,
 /// and takes any number of rectangles and scattered cells; whatever was prepared of the map before can be
@@ -27,9 +27,6 @@ pub struct Change<M = Grid> {
     cells: Vec<Rectangle>,
 }
 
-/// The side of the tiles in which scattered cells become one rectangle. A word of the map has as many cells.
-const TILE: u32 = 64;
-
 impl<M> Change<M> {
     /// The map before the change.
     #[must_use]
@@ -43,8 +40,8 @@ impl<M> Change<M> {
         &self.after
     }
 
-    /// Rectangles on the map outside of which the two are equal; empty if nothing was changed. Cells in one
-    /// block of 64 × 64 have one rectangle, unless they were edited as several.
+    /// Rectangles on the map outside of which the two are equal; empty if nothing was changed. Each lies in one
+    /// block of 64 × 64 cells, and the cells that one edit changes in a block have one.
     #[must_use]
     pub fn cells(&self) -> &[Rectangle] {
         &self.cells
@@ -65,46 +62,39 @@ impl Change {
         if before.id().size() != after.id().size() {
             return None;
         }
-        let mut cells = Tiles::default();
-        if before.id() != after.id() {
-            for y in 0..before.height() {
-                for (word, difference) in before.differing_words(&after, y) {
-                    let (first, last) = (difference.trailing_zeros(), 63 - difference.leading_zeros());
-                    let (x, width) = (word * TILE + first, last - first + 1);
-                    cells.add(Rectangle { x, y, width, height: 1 });
-                }
-            }
-        }
-        Some(Self { before, after, cells: cells.into_rectangles() })
+        let cells = before.differences(&after);
+        Some(Self { before, after, cells })
     }
 
     /// This change with other cells in a rectangle: `blocked(x, y)` is asked once for each cell that lies
     /// both in the rectangle and on the map, row by row.
     #[must_use]
-    pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Self {
+    pub fn edit(self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
         let at = self.after.on_map(at);
-        if at.width > 0 && at.height > 0 {
-            self.after = Arc::new(self.after.with_rectangle(at, blocked));
-            self.cells.push(at);
-        }
-        self
+        self.with(|edit| at.cells().for_each(|(x, y)| edit.set(x, y, blocked(x, y))))
     }
 
     /// This change with other scattered cells: of each its column, its row, and whether it is blocked. The
     /// last word on a cell counts. Cells beyond the map are left out.
     #[must_use]
-    pub fn edit_cells(mut self, cells: impl IntoIterator<Item = (u32, u32, bool)>) -> Self {
-        let (mut tiles, map) = (Tiles::default(), Arc::clone(&self.after));
-        let on_map = |&(x, y, _): &(u32, u32, bool)| x < map.width() && y < map.height();
-        let cells: Vec<_> = cells.into_iter().filter(on_map).collect();
-        if cells.is_empty() {
-            return self;
-        }
-        for &(x, y, _) in &cells {
-            tiles.add(Rectangle { x, y, width: 1, height: 1 });
-        }
-        self.after = Arc::new(self.after.with_cells(cells));
-        self.cells.extend(tiles.into_rectangles());
+    pub fn edit_cells(self, cells: impl IntoIterator<Item = (u32, u32, bool)>) -> Self {
+        let (width, height) = (self.after.width(), self.after.height());
+        self.with(|edit| {
+            let on_map = |&(x, y, _): &(u32, u32, bool)| x < width && y < height;
+            cells.into_iter().filter(on_map).for_each(|(x, y, blocked)| edit.set(x, y, blocked));
+        })
+    }
+
+    fn with(mut self, make: impl FnOnce(&mut GridEdit)) -> Self {
+        // The map between two edits of one change is nobody's.
+        let (mut edit, held) = match Arc::try_unwrap(self.after) {
+            Ok(between) => (between.into_edit(), None),
+            Err(held) => (held.begin_edit(), Some(held)),
+        };
+        make(&mut edit);
+        let (after, cells) = edit.finish();
+        self.after = held.filter(|_| cells.is_empty()).unwrap_or_else(|| Arc::new(after));
+        self.cells.extend(cells);
         self
     }
 
@@ -117,21 +107,5 @@ impl Change {
         self.after = next.after;
         self.cells.extend(next.cells);
         Some(self)
-    }
-}
-
-/// Rectangles of cells, one a tile.
-#[derive(Default)]
-struct Tiles(BTreeMap<(u32, u32), Rectangle>);
-
-impl Tiles {
-    /// Adds a rectangle that lies in one tile.
-    fn add(&mut self, at: Rectangle) {
-        let tile = (at.y / TILE, at.x / TILE);
-        self.0.entry(tile).and_modify(|known| *known = known.around(at)).or_insert(at);
-    }
-
-    fn into_rectangles(self) -> Vec<Rectangle> {
-        self.0.into_values().collect()
     }
 }

@@ -1,5 +1,8 @@
 //! The map: which cells are blocked.
 
+mod edit;
+
+pub(crate) use self::edit::GridEdit;
 use crate::{
     BitMatrix, Rectangle, Vertex,
     identity::MapId,
@@ -10,7 +13,8 @@ use crate::{
 /// a column are both runs of bits.
 ///
 /// Everything outside the map is blocked. A grid never changes; [`with_rectangle`](Self::with_rectangle)
-/// makes another one.
+/// makes another one. It is made of the memory of an earlier version that nobody holds any more, if there is
+/// one, by work that follows the edit.
 ///
 /// ```
 /// use mediant_grid::Grid;
@@ -137,18 +141,11 @@ impl Grid {
     /// ```
     #[must_use]
     pub fn with_rectangle(&self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Self {
-        let mut grid = self.clone();
-        let at = self.on_map(at);
-        grid.id = grid.id.without(&grid.rows, at);
-        for y in at.y..at.y + at.height {
-            for x in at.x..at.x + at.width {
-                let blocked = blocked(x, y);
-                grid.rows.set(x, y, blocked);
-                grid.columns.set(y, x, blocked);
-            }
+        let (mut edit, at) = (self.begin_edit(), self.on_map(at));
+        for (x, y) in at.cells() {
+            edit.set(x, y, blocked(x, y));
         }
-        grid.id = grid.id.with(&grid.rows, at);
-        grid
+        edit.finish().0
     }
 
     /// A copy of this map with other scattered cells: of each its column, its row, and whether it is blocked.
@@ -162,18 +159,13 @@ impl Grid {
     /// ```
     #[must_use]
     pub fn with_cells(&self, cells: impl IntoIterator<Item = (u32, u32, bool)>) -> Self {
-        let mut grid = self.clone();
+        let mut edit = self.begin_edit();
         for (x, y, blocked) in cells {
-            let at = self.on_map(Rectangle { x, y, width: 1, height: 1 });
-            if at.width == 0 || at.height == 0 {
-                continue;
+            if x < self.width() && y < self.height() {
+                edit.set(x, y, blocked);
             }
-            let others = grid.id.without(&grid.rows, at);
-            grid.rows.set(x, y, blocked);
-            grid.columns.set(y, x, blocked);
-            grid.id = others.with(&grid.rows, at);
         }
-        grid
+        edit.finish().0
     }
 
     /// The part of a rectangle that lies on the map.
@@ -184,7 +176,7 @@ impl Grid {
 
     /// The words of a row that differ from those of a map of the same size: the number of each, from 0, and
     /// its bits that differ.
-    pub(crate) fn differing_words(&self, other: &Self, y: u32) -> impl Iterator<Item = (u32, u64)> {
+    fn differing_words(&self, other: &Self, y: u32) -> impl Iterator<Item = (u32, u64)> {
         let words = self.rows.row_words(y).iter().zip(other.rows.row_words(y));
         (0..).zip(words.map(|(one, other)| one ^ other)).filter(|&(_, difference)| difference != 0)
     }

@@ -58,14 +58,10 @@ impl MapId {
         (self.width, self.height)
     }
 
-    /// This without the words that a rectangle touches.
-    pub(crate) fn without(self, rows: &BitMatrix, at: Rectangle) -> Self {
-        self.plus(sum(rows, at).wrapping_neg())
-    }
-
-    /// This with the words that a rectangle touches.
-    pub(crate) fn with(self, rows: &BitMatrix, at: Rectangle) -> Self {
-        self.plus(sum(rows, at))
+    /// This after the word of row y from column x on, a multiple of 64, has changed.
+    pub(crate) fn with_word(self, (x, y): (u32, u32), [before, after]: [u64; 2]) -> Self {
+        let position = position(x / 64, y);
+        self.plus(term(position, after).wrapping_sub(term(position, before)))
     }
 
     fn plus(self, terms: u128) -> Self {
@@ -80,10 +76,15 @@ fn sum(rows: &BitMatrix, at: Rectangle) -> u128 {
     let words = at.x / 64..(at.x + at.width).div_ceil(64);
     (at.y..at.y + at.height).fold(0, |sum: u128, y| {
         let row = rows.row(y as i32);
-        words.clone().fold(sum, |sum, word| {
-            sum.wrapping_add(term(u64::from(y) << 32 | u64::from(word), row.word(64 * word as i32)))
-        })
+        words
+            .clone()
+            .fold(sum, |sum, word| sum.wrapping_add(term(position(word, y), row.word(64 * word as i32))))
     })
+}
+
+/// The position of a word by its number in its row.
+const fn position(word: u32, y: u32) -> u64 {
+    (y as u64) << 32 | word as u64
 }
 
 /// The digest of one word at its position.

@@ -72,6 +72,7 @@ pub mod sight;
 mod tables;
 mod transpose;
 mod tree;
+mod versions;
 mod vertex;
 
 pub use ascii::{AsciiMap, draw};
@@ -102,4 +103,6 @@ pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]
 pub use transpose::transpose;
+#[doc(hidden)]
+pub use versions::{VersionEdit, Versioned};
 pub use vertex::{Coordinate, Vertex, VertexId};

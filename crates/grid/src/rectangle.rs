@@ -41,6 +41,12 @@ impl Rectangle {
         Self { x, y, width, height }
     }
 
+    /// Its cells, row by row.
+    pub(crate) fn cells(self) -> impl Iterator<Item = (u32, u32)> {
+        let Self { x, y, width, height } = self;
+        (y..y + height).flat_map(move |y| (x..x + width).map(move |x| (x, y)))
+    }
+
     /// The smallest rectangle around two, neither of which is empty or reaches beyond the largest map.
     pub(crate) fn around(self, other: Self) -> Self {
         let span = |a: u32, a_length: u32, b: u32, b_length: u32| {

@@ -22,7 +22,7 @@ impl BitMatrix {
                 row.set(x as usize, blocked(x, y));
             }
             let start = matrix.index(0, y as i32).0 as usize / 64;
-            for (word, bits) in matrix.words[start..].iter_mut().zip(row.chunks_exact(64)) {
+            for (word, bits) in matrix.words.make_mut()[start..].iter_mut().zip(row.chunks_exact(64)) {
                 *word = bits.load_le();
             }
         }
@@ -53,7 +53,7 @@ impl BitMatrix {
             for x in (0..width).step_by(64) {
                 let within = !0_u64 >> (64 - (width - x).min(64));
                 let at = matrix.index(x as i32, y).0 as usize / 64;
-                let bits = &mut matrix.words[at];
+                let bits = &mut matrix.words.make_mut()[at];
                 *bits = *bits & !within | word(x as i32, y) & within;
             }
         }
