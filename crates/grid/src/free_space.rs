@@ -5,7 +5,8 @@ use std::sync::Arc;
 use mediant_moves::{FiniteK, K};
 
 use crate::{
-    BitMatrix, Components, Connectivity, Grid, Identity, Placement, Rules, Vertex, VertexId,
+    BitMatrix, Change, Components, Connectivity, Grid, Identity, Placement, Rectangle, Rules, Vertex,
+    VertexId,
     interrupt::{Interrupt, Interrupted, uninterrupted},
     line_of_sight::line_of_sight,
 };
@@ -35,7 +36,7 @@ pub struct FreeSpace<P: Placement> {
     width: u32,
     height: u32,
     /// The gaps that no path may pass through, if there are any.
-    gaps: Option<Arc<BitMatrix>>,
+    gaps: Option<Arc<Gaps>>,
     connectivity: Connectivity,
     components: Arc<Components>,
 }
@@ -66,7 +67,7 @@ impl<P: Placement> FreeSpace<P> {
     ) -> Result<Self, Interrupted> {
         let (width, height) = P::vertices(&grid);
         let connectivity = P::connectivity(rule, k.finite());
-        let gaps = if P::closes_gaps(rule) { gaps(&grid, interrupt)? } else { None };
+        let gaps = if P::closes_gaps(rule) { Gaps::of(&grid, interrupt)? } else { None };
         Ok(Self {
             gaps: gaps.map(Arc::new),
             components: Arc::new(Components::interruptible(&grid, connectivity, interrupt)?),
@@ -76,6 +77,24 @@ impl<P: Placement> FreeSpace<P> {
             width,
             height,
         })
+    }
+
+    /// The free space after a change of its map, by work that follows the change; that of the map after the
+    /// change, if the change is one of another map.
+    #[must_use]
+    pub fn after(&self, change: &Change) -> Self {
+        let grid = Arc::clone(change.after());
+        if change.before().id() != self.grid.id() || grid.id().size() != self.grid.id().size() {
+            let k = if self.identity().k.is_some() { K::N4 } else { K::Any };
+            return Self::for_k(grid, self.rule, k);
+        }
+        let gaps = match &self.gaps {
+            Some(gaps) => gaps.after(change),
+            None if P::closes_gaps(self.rule) => Gaps::new_after(change),
+            None => None,
+        };
+        let components = Arc::new(self.components.after(change));
+        Self { grid, gaps: gaps.map(Arc::new), components, ..*self }
     }
 
     /// This, if it serves N(k); else the free space that does.
@@ -167,7 +186,7 @@ impl<P: Placement> FreeSpace<P> {
     /// The memory used beyond the map, in bytes: mostly that of the components.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.words()));
+        let gaps = self.gaps.as_ref().map_or(0, |gaps| size_of_val(gaps.at.words()));
         gaps + self.components.memory_bytes()
     }
 
@@ -183,7 +202,7 @@ impl<P: Placement> FreeSpace<P> {
     #[must_use]
     #[inline]
     pub fn is_closed_gap(&self, at: Vertex) -> bool {
-        self.gaps.as_ref().is_some_and(|gaps| gaps.get(at.x, at.y))
+        self.gaps.as_ref().is_some_and(|gaps| gaps.at.get(at.x, at.y))
     }
 
     /// A set of vertices, as one bit each in an empty frame; `contains` is asked once for each vertex, row by
@@ -225,9 +244,53 @@ impl<P: Placement> FreeSpace<P> {
     }
 }
 
-/// The gaps of a map; `None` if there are none.
-fn gaps(grid: &Grid, interrupt: &Interrupt) -> Result<Option<BitMatrix>, Interrupted> {
-    let (size, stop) = ((grid.width() + 1, grid.height() + 1), (interrupt, "finding closed gaps"));
-    let gaps = BitMatrix::from_words_interruptible(size, false, stop, |x, y| grid.rows().gaps(x, y))?;
-    Ok(gaps.words().iter().any(|&word| word != 0).then_some(gaps))
+/// The gaps of a map that has any.
+#[derive(Debug)]
+struct Gaps {
+    at: BitMatrix,
+    count: u64,
+}
+
+impl Gaps {
+    /// The gaps of a map; `None` if there are none.
+    fn of(grid: &Grid, interrupt: &Interrupt) -> Result<Option<Self>, Interrupted> {
+        let (size, stop) = ((grid.width() + 1, grid.height() + 1), (interrupt, "finding closed gaps"));
+        let at = BitMatrix::from_words_interruptible(size, false, stop, |x, y| grid.rows().gaps(x, y))?;
+        let count = at.words().iter().map(|word| u64::from(word.count_ones())).sum();
+        Ok(Self { at, count }.if_any())
+    }
+
+    /// The gaps after a change of a map that had none.
+    fn new_after(change: &Change) -> Option<Self> {
+        let grid = change.after();
+        let is_gap = |at: &Rectangle| {
+            let (first, last) = (at.x as i32, (at.x + at.width) as i32);
+            (at.y..=at.y + at.height).any(|y| grid.rows().any_gap(y as i32, first, last))
+        };
+        if !change.cells().iter().any(is_gap) {
+            return None;
+        }
+        let none = BitMatrix::from_words(grid.width() + 1, grid.height() + 1, false, |_, _| 0);
+        Self { at: none, count: 0 }.after(change)
+    }
+
+    /// The gaps after a change.
+    fn after(&self, change: &Change) -> Option<Self> {
+        let (rows, width) = (change.after().rows(), self.at.width());
+        let (mut at, mut count) = (self.at.edit(), self.count);
+        for cells in change.cells() {
+            for y in cells.y..=cells.y + cells.height {
+                for x in (cells.x & !63..=cells.x + cells.width).step_by(64) {
+                    let within = !0_u64 >> (64 - (width - x).min(64));
+                    let [before, after] = at.set_bits((x, y), within, rows.gaps(x as i32, y as i32));
+                    count = count - u64::from(before.count_ones()) + u64::from(after.count_ones());
+                }
+            }
+        }
+        Self { at: at.finish(), count }.if_any()
+    }
+
+    fn if_any(self) -> Option<Self> {
+        (self.count > 0).then_some(self)
+    }
 }

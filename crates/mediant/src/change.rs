@@ -87,7 +87,7 @@ impl Change {
     /// The space after the change.
     #[must_use]
     pub fn after(&self) -> &Space {
-        self.after.get_or_init(|| self.before.on(&Arc::clone(self.change.after()).into()))
+        self.after.get_or_init(|| self.before.follow(&self.change))
     }
 
     /// Rectangles outside of which the two maps are equal; empty if nothing was changed.

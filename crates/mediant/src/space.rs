@@ -3,8 +3,8 @@
 use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{
-    Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement, PlacementKind,
-    Rules, Vertex, uninterrupted,
+    Centers, Change, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement,
+    PlacementKind, Rules, Vertex,
 };
 use mediant_moves::FiniteK;
 use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
@@ -88,6 +88,13 @@ impl<P: Placement> Layers<P> {
         Ok(Self { free: Arc::new(free), graph: OnceLock::new(), any_angle: OnceLock::new() })
     }
 
+    /// The layers after a change of the map.
+    fn follow(&self, change: &Change) -> Self {
+        let after = |free: &Arc<FreeSpace<P>>| Arc::new(free.after(change));
+        let any_angle = self.any_angle.get().map(after).map(OnceLock::from).unwrap_or_default();
+        Self { free: after(&self.free), graph: OnceLock::new(), any_angle }
+    }
+
     /// The free space whose components say what paths at any angle connect. It is another one at k = 2 where
     /// corners are always cut, and made when it is first needed.
     pub(crate) fn at_any_angle(&self) -> &Arc<FreeSpace<P>> {
@@ -141,9 +148,15 @@ impl Space {
         Ok(Self::searched(map, motion, Metric::new(motion.k)?, interrupt)?)
     }
 
-    /// Another map with the motion of this space.
-    pub(crate) fn on(&self, map: &Map) -> Self {
-        uninterrupted(|interrupt| Self::searched(map, self.motion(), self.metric(), interrupt))
+    /// The space after a change of its map.
+    pub(crate) fn follow(&self, change: &Change) -> Self {
+        let (motion, metric) = (self.motion(), self.metric());
+        let placed = match self.placed() {
+            Placed::Centers(layers) => Placed::Centers(layers.follow(change)),
+            Placed::Corners(layers) => Placed::Corners(layers.follow(change)),
+        };
+        let map = Arc::clone(change.after()).into();
+        Self { inner: Arc::new(Inner { map, motion, metric, placed }) }
     }
 
     /// A map with a motion that some engine searches, and the metric of its k.

@@ -13,7 +13,7 @@
 //!   corners, one graph for all k.
 //! * [`validate`]: checks that a path is legal and has the stated cost.
 //! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
-//!   [`seeds`] are those of a suite.
+//!   [`seeds`] are those of a suite. [`random_change`]: edits of them.
 //! * [`check_interrupts`]: that work can be stopped anywhere, and then stops.
 //! * [`describe`]: the query and its map, for the message of a failing test.
 //!
@@ -40,6 +40,7 @@
 
 mod case;
 mod dijkstra;
+mod edits;
 mod generate;
 mod geometry;
 mod interrupts;
@@ -51,6 +52,7 @@ mod visibility;
 
 pub use case::{Case, describe, every, is_exhaustive, maps_of_nine_cells, on_all_cores, seeds};
 pub use dijkstra::{Costs, Explicit};
+pub use edits::random_change;
 pub use generate::{
     adversarial, caves, maze, noise, random_free_vertex, random_grid, random_vertex, rooms, sparse,
     suite_grid, wide_grid,

@@ -2,6 +2,7 @@
 
 mod agents;
 mod clearance;
+mod edits;
 mod interrupts;
 mod legality;
 mod polygon;

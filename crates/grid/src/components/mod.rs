@@ -1,0 +1,330 @@
+//! Connected components of the free cells, so that 'is there any path?' is one comparison.
+//!
+//! The map is cut into tiles of 64 × 64 cells. In each tile the runs of free cells make *regions*, which have
+//! numbers; the pairs of regions that meet across the borders of tiles make the regions components, by a
+//! union-find over them. So an edit finds the regions of the tiles anew in which cells changed. If these meet
+//! the regions around them as before, nothing else is done: whatever changed within a tile, a region that
+//! meets the same regions beyond the border keeps its number. Otherwise all pairs are joined anew, when a
+//! component is next asked for.
+//!
+//! Versions of a map share the tiles that did not change, by rows of tiles.
+
+mod tile;
+
+use std::sync::{Arc, OnceLock};
+
+use self::tile::{DIRECTIONS, RowRun, SIDE, Tile};
+use crate::{
+    Change, Grid, Vertex,
+    interrupt::{Interrupt, Interrupted, uninterrupted},
+};
+
+/// The stage that an interrupted call names.
+const DURING: &str = "finding connected components";
+
+/// Which free cells count as neighbors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Connectivity {
+    /// Cells that share an edge.
+    Four,
+    /// Cells that share an edge or a corner.
+    Eight,
+}
+
+impl Connectivity {
+    /// How many columns apart runs of neighboring rows may be that meet.
+    const fn reach(self) -> u32 {
+        match self {
+            Self::Four => 0,
+            Self::Eight => 1,
+        }
+    }
+}
+
+/// The connected components of a grid's free cells.
+///
+/// A label is stored for each run of free cells of a word of the map, so the memory follows the runs, not the
+/// cells: a thirtieth of a byte a cell, and four bytes a run. [`after`](Self::after) follows an edit.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_grid::{AsciiMap, Change, Components, Connectivity, Vertex};
+/// let map = AsciiMap::parse("
+///     .#
+///     #.
+/// ")?;
+/// let grid = Arc::new(map.grid);
+/// let four = Components::new(&grid, Connectivity::Four);
+/// assert_eq!(four.count(), 2);
+/// let eight = Components::new(&grid, Connectivity::Eight);
+/// assert_eq!((eight.count(), eight.of(Vertex::new(1, 1))), (1, eight.of(Vertex::new(0, 0))));
+/// let opened = four.after(&Change::new(grid).edit_cells([(1, 0, false)]));
+/// assert_eq!((opened.count(), four.count()), (1, 2));
+/// # Ok::<(), mediant_grid::GridError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Components {
+    grid: Arc<Grid>,
+    connectivity: Connectivity,
+    /// The tiles, row by row.
+    tiles: Vec<Arc<[Arc<Tile>]>>,
+    /// The number of regions, and the first number that none of them ever had.
+    regions: u32,
+    next: u32,
+    joined: Arc<OnceLock<Joined>>,
+}
+
+/// Regions joined to components.
+#[derive(Debug)]
+struct Joined {
+    /// For each number of a region, that which stands for its component. Later numbers stand for themselves.
+    roots: Box<[u32]>,
+    /// By how many the components are fewer than the regions.
+    fewer: u32,
+}
+
+impl Components {
+    /// The components of a grid.
+    #[must_use]
+    pub fn new(grid: &Arc<Grid>, connectivity: Connectivity) -> Self {
+        uninterrupted(|never| Self::interruptible(grid, connectivity, never))
+    }
+
+    /// [`new`](Self::new), which an interrupt can stop; it asks before each row.
+    ///
+    /// # Errors
+    /// [`Interrupted`].
+    pub fn interruptible(
+        grid: &Arc<Grid>,
+        connectivity: Connectivity,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let [columns, rows] = [grid.width(), grid.height()].map(|side| (side as usize).div_ceil(SIDE));
+        let mut next = 0;
+        let mut tile = |column, row| {
+            let mut tile = Tile::new(words(grid, (column, row)), connectivity, interrupt)?;
+            tile.number_from(next);
+            next += tile.regions();
+            Ok(tile)
+        };
+        let mut tiles: Vec<Vec<Tile>> = Vec::with_capacity(rows);
+        for row in 0..rows {
+            tiles.push((0..columns).map(|column| tile(column, row)).collect::<Result<_, _>>()?);
+        }
+        for row in 0..rows {
+            interrupt.check(DURING)?;
+            for column in 0..columns {
+                let contacts = std::array::from_fn(|direction| {
+                    let beside = beside((column, row), direction);
+                    let other = beside.and_then(|(column, row)| tiles.get(row)?.get(column));
+                    let contacts =
+                        other.map(|other| tiles[row][column].contacts_with(other, direction, connectivity));
+                    contacts.unwrap_or_default().into()
+                });
+                tiles[row][column].contacts = contacts;
+            }
+        }
+        let tiles = tiles.into_iter().map(|row| row.into_iter().map(Arc::new).collect()).collect();
+        let components =
+            Self { grid: Arc::clone(grid), connectivity, tiles, regions: next, next, joined: Arc::default() };
+        let joined = components.join(interrupt)?;
+        Ok(Self { joined: Arc::new(joined.into()), ..components })
+    }
+
+    /// The components after a change of the map, by work that follows the tiles in which cells changed. If
+    /// components must be joined anew, that is done when one is first asked for.
+    #[must_use]
+    pub fn after(&self, change: &Change) -> Self {
+        let mut changed: Vec<_> =
+            change.cells().iter().map(|at| (at.y as usize / SIDE, at.x as usize / SIDE)).collect();
+        changed.sort_unstable();
+        changed.dedup();
+        let tiles = self.tiles.iter().map(|row| row.len()).sum::<usize>();
+        let of_the_same_size = change.before().id().size() == change.after().id().size();
+        // Repairing a tile takes at most twice as long as making it.
+        if !of_the_same_size || changed.len() > tiles.div_ceil(2) {
+            return Self::new(change.after(), self.connectivity);
+        }
+        let mut after = Self { grid: Arc::clone(change.after()), ..self.clone() };
+        let mut meets_as_before = true;
+        for (row, column) in changed {
+            meets_as_before &= after.repair((column, row));
+        }
+        if !meets_as_before {
+            after.joined = Arc::default();
+        }
+        after
+    }
+
+    /// Finds the regions of a tile anew. Returns whether they meet those around as before.
+    fn repair(&mut self, at: (usize, usize)) -> bool {
+        let before = Arc::clone(&self.tiles[at.1][at.0]);
+        let tile = Tile::new(words(&self.grid, at), self.connectivity, &Interrupt::NEVER);
+        let Ok(mut tile) = tile else { unreachable!("nothing stops this work") };
+        let places = std::array::from_fn(|direction| {
+            beside(at, direction)
+                .filter(|&(column, row)| row < self.tiles.len() && column < self.tiles[row].len())
+        });
+        let around: [Option<Arc<Tile>>; 8] = places.map(|place: Option<(usize, usize)>| {
+            place.map(|(column, row)| Arc::clone(&self.tiles[row][column]))
+        });
+        let around = around.each_ref().map(Option::as_deref);
+        // The contacts of the tile, first those that it keeps itself.
+        let known = std::array::from_fn::<_, 8, _>(|direction| match direction {
+            0..4 => Some(&before.contacts[direction]),
+            _ => around[direction].map(|other| &other.contacts[direction - 4]),
+        });
+        let mut met: Vec<u32> = Vec::new();
+        for (direction, contacts) in known.iter().enumerate() {
+            let own = usize::from(direction >= 4);
+            met.extend(contacts.iter().flat_map(|contacts| contacts.iter()).map(|contact| contact[own]));
+        }
+        met.sort_unstable();
+        met.dedup();
+        tile.number_like(&before, (&around, &met), self.connectivity, &mut self.next);
+        self.regions = self.regions - before.regions() + tile.regions();
+        tile.contacts = before.contacts.clone();
+        let (mut as_before, mut others) = (true, Vec::new());
+        for (direction, other) in around.iter().enumerate() {
+            let (Some(other), Some(known)) = (other, known[direction]) else { continue };
+            let new = if direction < 4 {
+                tile.contacts_with(other, direction, self.connectivity)
+            } else {
+                other.contacts_with(&tile, direction - 4, self.connectivity)
+            };
+            if *new == **known {
+                continue;
+            }
+            as_before = false;
+            if direction < 4 {
+                tile.contacts[direction] = new.into();
+            } else if let Some(place) = places[direction] {
+                others.push((place, direction - 4, new));
+            }
+        }
+        let mut put = |(column, row): (usize, usize), tile: Tile| {
+            Arc::make_mut(&mut self.tiles[row])[column] = Arc::new(tile);
+        };
+        for (place, direction, contacts) in others {
+            let Some(other) = around[direction + 4] else { continue };
+            let mut other = other.clone();
+            other.contacts[direction] = contacts.into();
+            put(place, other);
+        }
+        put(at, tile);
+        as_before
+    }
+
+    /// Joins the regions that meet.
+    fn join(&self, interrupt: &Interrupt) -> Result<Joined, Interrupted> {
+        let (mut sets, mut fewer) = (Sets { parents: (0..self.next).collect() }, 0);
+        for row in &self.tiles {
+            interrupt.check(DURING)?;
+            for &[one, other] in row.iter().flat_map(|tile| tile.contacts.iter().flat_map(|all| all.iter())) {
+                fewer += u32::from(sets.join(one, other));
+            }
+        }
+        for i in 0..self.next {
+            interrupt.check_every(1 << 16, i as usize, DURING)?;
+            sets.parents[i as usize] = sets.root(i);
+        }
+        Ok(Joined { roots: sets.parents.into_boxed_slice(), fewer })
+    }
+
+    fn joined(&self) -> &Joined {
+        self.joined.get_or_init(|| uninterrupted(|never| self.join(never)))
+    }
+
+    /// The number of components.
+    #[must_use]
+    pub fn count(&self) -> u32 {
+        self.regions - self.joined().fewer
+    }
+
+    pub(crate) fn memory_bytes(&self) -> usize {
+        let joined = self.joined.get().map_or(0, |joined| size_of_val(&*joined.roots));
+        joined + self.tiles.iter().flat_map(|row| row.iter()).map(|tile| tile.memory_bytes()).sum::<usize>()
+    }
+
+    /// The component of a cell, as a number that no other component of the map has; `None` for blocked cells
+    /// and outside the map.
+    #[must_use]
+    pub fn of(&self, cell: Vertex) -> Option<u32> {
+        if !self.grid.is_free(cell.x, cell.y) {
+            return None;
+        }
+        let (x, y) = (cell.x as usize, cell.y as usize);
+        let free = !self.grid.rows().row(cell.y).word(cell.x & !63);
+        let region = self.tiles[y / SIDE][x / SIDE].of(y % SIDE, cell.x as u32 % 64, free);
+        Some(self.joined().roots.get(region as usize).copied().unwrap_or(region))
+    }
+}
+
+/// The words of free cells of a tile.
+fn words(grid: &Grid, (column, row): (usize, usize)) -> impl Iterator<Item = u64> {
+    let rows = row * SIDE..((row + 1) * SIDE).min(grid.height() as usize);
+    rows.map(move |y| !grid.rows().row(y as i32).word((SIDE * column) as i32))
+}
+
+/// The place of the tile in a direction; `None` to the left of the map and above it.
+fn beside((column, row): (usize, usize), direction: usize) -> Option<(usize, usize)> {
+    let (dx, dy) = DIRECTIONS[direction];
+    Some((column.checked_add_signed(dx as isize)?, row.checked_add_signed(dy as isize)?))
+}
+
+/// Disjoint sets of numbers; the smallest number of a set is its root.
+#[derive(Default)]
+struct Sets {
+    parents: Vec<u32>,
+}
+
+impl Sets {
+    fn add(&mut self) -> u32 {
+        let new = self.parents.len() as u32;
+        self.parents.push(new);
+        new
+    }
+
+    fn root(&mut self, mut of: u32) -> u32 {
+        while self.parents[of as usize] != of {
+            let parent = self.parents[of as usize];
+            self.parents[of as usize] = self.parents[parent as usize];
+            of = parent;
+        }
+        of
+    }
+
+    /// Joins the sets of two numbers. Returns whether they were two.
+    fn join(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.parents[a.max(b) as usize] = a.min(b);
+        a != b
+    }
+
+    /// Joins the runs of a row with those that they meet in the row above; runs `reach` columns apart meet.
+    fn join_rows(&mut self, above: &[RowRun], row: &[RowRun], reach: u32) {
+        let mut met = 0;
+        for run in row {
+            // Runs above that end before this one begins do not meet the later ones either.
+            while above.get(met).is_some_and(|other| other.last + reach < run.first) {
+                met += 1;
+            }
+            for other in above[met..].iter().take_while(|other| other.first <= run.last + reach) {
+                self.join(run.set, other.set);
+            }
+        }
+    }
+
+    /// Replaces each of all numbers, in their order, by that of its set, with the sets numbered from 0 in the
+    /// order of their roots. Returns the number of sets.
+    fn rename(mut self, numbers: &mut [u32]) -> u32 {
+        let mut count = 0;
+        for i in 0..numbers.len() {
+            // A root comes before all others of its set, so its name is known when they need it.
+            let root = self.root(i as u32) as usize;
+            numbers[i] = if root == i { count } else { numbers[root] };
+            count += u32::from(root == i);
+        }
+        count
+    }
+}
