@@ -1,6 +1,7 @@
 //! Paths: what they are made of (`steps.rs`), what can be measured on them (`measure.rs`), and whether they
 //! still hold on a map (`check.rs`).
 
+mod change;
 mod check;
 mod measure;
 #[cfg(feature = "serde")]

@@ -16,6 +16,7 @@ mod jumps;
 mod kramm2018;
 mod open_list;
 mod path;
+mod path_change;
 mod queries;
 mod smoothing;
 mod snapshots;
