@@ -162,6 +162,7 @@ mod planners;
 #[cfg(doctest)]
 mod readme;
 mod recent;
+mod replan;
 pub mod search;
 #[cfg(feature = "serde")]
 mod serialized;
@@ -199,6 +200,7 @@ pub use mediant_search::{Answer, Ends, Guarantee, Limit, Path, Query, Smoothing,
 pub use motion::Motion;
 pub use planner::Planner;
 pub use planners::Planners;
+pub use replan::Replanned;
 pub use setup::Setup;
 pub use space::Space;
 pub use table::Table;

@@ -1,8 +1,12 @@
 //! Whether a path still holds.
 
+use mediant_grid::{Centers, Corners};
 use mediant_search::{BrokenPath, Path};
 
-use crate::space::{Placed, Space};
+use crate::{
+    change::Change,
+    space::{Placed, Space},
+};
 
 impl Space {
     /// Whether a path obeys the rules of motion in this space, at any angle: whether it still holds after an
@@ -29,6 +33,40 @@ impl Space {
         match self.placed() {
             Placed::Centers(layers) => path.check(&layers.free),
             Placed::Corners(layers) => path.check(&layers.free),
+        }
+    }
+}
+
+impl Change {
+    /// [`Space::check`] in the space after the change, of a path that held before it: with the same result, but
+    /// only segments near the changed cells are looked at.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    /// let space = Map::new(9, 9)?.space(Motion::default())?;
+    /// let path = space.path((0, 0), (8, 0))?.expect("there is a way");
+    /// assert!(space.edit_cells([((4, 1), true)])?.check(&path).is_ok());
+    /// assert!(space.edit_cells([((4, 0), true)])?.check(&path).is_err());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Space::check`].
+    pub fn check(&self, path: &Path) -> Result<(), BrokenPath> {
+        match self.after().placed() {
+            Placed::Centers(layers) => path.check_after(&layers.free, self.of_grid()),
+            Placed::Corners(layers) => path.check_after(&layers.free, self.of_grid()),
+        }
+    }
+
+    /// The length below which no path from the path's start to its goal is that passes cells which the change
+    /// has freed; infinite if it has freed none: see [`Path::least_by_freed`]. A shortest path that holds and
+    /// is no longer than this is a shortest one still.
+    #[must_use]
+    pub fn least_by_freed(&self, path: &Path) -> f64 {
+        match self.after().placed() {
+            Placed::Centers(_) => path.least_by_freed::<Centers>(self.of_grid()),
+            Placed::Corners(_) => path.least_by_freed::<Corners>(self.of_grid()),
         }
     }
 }

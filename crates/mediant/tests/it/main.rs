@@ -18,6 +18,7 @@ mod odd_input;
 mod options;
 mod planners;
 mod queries;
+mod replan;
 mod serialized;
 mod subgoals;
 mod table;

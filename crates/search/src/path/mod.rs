@@ -152,6 +152,33 @@ impl Path {
     }
 }
 
+impl Path {
+    /// The rest of the path from a vertex on it, where the path passes it first; `None` for a vertex that is
+    /// not on the path.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
+    /// assert_eq!(path.rest((2, 0)).map(|rest| rest.to_string()).as_deref(), Some("(2, 0) → (3, 0) → (5, 2)"));
+    /// assert_eq!(path.rest((5, 2)).map(|rest| rest.len()), Some(1));
+    /// assert_eq!(path.rest((2, 1)), None);
+    /// ```
+    #[must_use]
+    pub fn rest(&self, from: impl Into<Vertex>) -> Option<Self> {
+        let from = from.into();
+        let is_on = |ends: &[Vertex]| {
+            let [one, other] = [Segment::new(ends[0], from), Segment::new(from, ends[1])];
+            from == ends[0] || from == ends[1] || one.continues_in(&other)
+        };
+        if self.waypoints.as_slice() == [from] {
+            return Some(self.clone());
+        }
+        let index = self.waypoints.windows(2).position(is_on)?;
+        let after = self.waypoints[index + 1..].iter().copied().skip_while(|&at| at == from);
+        Some(Self::new(std::iter::once(from).chain(after).collect()))
+    }
+}
+
 /// A waypoint by its number, from 0. As with a slice, there must be one: `path.waypoints().get(at)` asks.
 impl Index<usize> for Path {
     type Output = Vertex;
