@@ -53,6 +53,11 @@ impl Change {
         Ok(Self { before: before.clone(), after: after.clone().into(), change })
     }
 
+    /// The change of a grid, between the spaces of the grid before and after it.
+    pub(crate) fn of_spaces([before, after]: [&Space; 2], change: GridChange) -> Self {
+        Self { before: before.clone(), after: after.clone().into(), change }
+    }
+
     /// This change with other cells in a rectangle: see [`Map::edit`](crate::Map::edit).
     ///
     /// # Errors

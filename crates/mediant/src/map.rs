@@ -14,7 +14,8 @@ use crate::{error::Error, recent::Recent};
 /// row y from the top, both from 0. Everything outside is blocked.
 ///
 /// A map never changes; [`edit`](Self::edit) makes another one. Clones share it, and what their paths
-/// [prepared](Self::path) last.
+/// [prepared](Self::path) last. The first paths on the edited map follow what was prepared, by work that
+/// follows the edit.
 ///
 /// ```
 /// use mediant::Map;
@@ -223,7 +224,7 @@ impl Map {
     /// [`Error::Edit`] for a rectangle that lies outside the map as a whole.
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         self.check_edit(at)?;
-        Ok(self.grid.with_rectangle(at, blocked).into())
+        Ok(self.after(|change| change.edit(at, blocked)))
     }
 
     /// Checks that a rectangle does not lie outside the map as a whole.
@@ -250,7 +251,8 @@ impl Map {
         &self,
         cells: impl IntoIterator<Item = (C, bool)>,
     ) -> Result<Self, Error> {
-        Ok(self.grid.with_cells(self.check_cells(cells)?).into())
+        let cells = self.check_cells(cells)?;
+        Ok(self.after(|change| change.edit_cells(cells)))
     }
 
     /// Cells with their columns and rows, which are on the map.
@@ -307,8 +309,13 @@ impl Map {
         self.grid.id()
     }
 
-    pub(crate) fn recent(&self) -> &Recent {
+    pub(crate) fn recent(&self) -> &Arc<Recent> {
         &self.recent
+    }
+
+    /// A map with what is kept of it.
+    pub(crate) fn with_recent(grid: Arc<Grid>, recent: Recent) -> Self {
+        Self { grid, recent: Arc::new(recent) }
     }
 
     /// The bit-packed grid, for the typed crates.

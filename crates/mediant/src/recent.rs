@@ -2,16 +2,21 @@
 //!
 //! `map.path`, and the same call of every language, prepares a little at its first use. It is kept with the
 //! map, so the next call with the same parameters finds it there.
+//!
+//! A map that was made by an edit knows the last map before it of which anything was kept, and the change
+//! since. So its first paths follow what was kept there, by work that follows the change.
 
 use std::{
     fmt,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
+use mediant_grid::Change as GridChange;
 use mediant_search::Limits;
 
 use crate::{
     call::{Call, CallError},
+    change::Change,
     choice::Choice,
     demand::Demand,
     error::Error,
@@ -28,6 +33,47 @@ use crate::{
 pub(crate) struct Recent {
     spaces: Kept<Motion, Space>,
     planners: Kept<Setup, Arc<Planners>>,
+    before: Mutex<Option<Before>>,
+}
+
+/// What is kept with an earlier map, and the change since.
+#[derive(Clone)]
+struct Before {
+    recent: Arc<Recent>,
+    change: GridChange,
+}
+
+/// The most rectangles of a change that what is kept follows.
+const MOST_CELLS: usize = 1 << 12;
+
+impl Recent {
+    /// Nothing is kept yet of the map after a change.
+    fn after(before: &Arc<Self>, change: &GridChange) -> Self {
+        let before = if before.is_empty() {
+            let older = before.before().clone();
+            older.and_then(|older| Some(Before { change: older.change.then(change.clone())?, ..older }))
+        } else {
+            Some(Before { recent: Arc::clone(before), change: change.clone() })
+        };
+        let before = before.filter(|before| before.change.cells().len() <= MOST_CELLS);
+        Self { before: Mutex::new(before), ..Self::default() }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.spaces.is_empty() && self.planners.is_empty()
+    }
+
+    /// Gives up the map before, if anything is kept of this one: so that two maps take turns, and no more.
+    fn settle(&self) {
+        if !self.is_empty() {
+            let given_up = self.before().take();
+            drop(given_up);
+        }
+    }
+
+    fn before(&self) -> MutexGuard<'_, Option<Before>> {
+        self.before.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 /// The values that were used last, by key, the last one first.
@@ -50,6 +96,10 @@ impl<K: PartialEq, V: Clone> Kept<K, V> {
         Some(kept[0].1.clone())
     }
 
+    fn is_empty(&self) -> bool {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
+    }
+
     fn put(&self, key: K, value: &V) {
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         kept.insert(0, (key, value.clone()));
@@ -65,6 +115,13 @@ impl fmt::Debug for Recent {
 }
 
 impl Map {
+    /// The map after a change of this one.
+    pub(crate) fn after(&self, change: impl FnOnce(GridChange) -> GridChange) -> Self {
+        self.recent().settle();
+        let change = change(GridChange::new(Arc::clone(self.grid())));
+        Self::with_recent(Arc::clone(change.after()), Recent::after(self.recent(), &change))
+    }
+
     /// The setup of a call: of the engine that it names, or for the next path on this map, which may change
     /// before the one after it ([`Demand::Paths`] of one).
     ///
@@ -89,7 +146,12 @@ impl Map {
         if let Some(space) = self.kept_space(motion) {
             return Ok(space);
         }
-        let space = self.within(limits).space(motion)?;
+        let before = self.recent().before().clone();
+        let known = before.and_then(|before| Some((before.recent.spaces.get(&motion)?, before.change)));
+        let space = match known {
+            Some((known, change)) => known.follow(&change),
+            None => self.within(limits).space(motion)?,
+        };
         self.recent().spaces.put(motion, &space);
         Ok(space)
     }
@@ -110,9 +172,17 @@ impl Map {
             return Ok(planners);
         }
         let limits = limits.into();
+        let before = self.recent().before().clone();
         let space = self.keep_space(setup.motion, &limits)?;
-        let index = space.within(&limits).prepare(setup.engine)?;
-        let planners = Arc::new(Planners::new(index.with_smoothing(setup.smoothing)));
+        let known = before.and_then(|before| Some((before.recent.planners.get(setup)?, before.change)));
+        let index = match known {
+            Some((known, change)) => {
+                let change = Change::of_spaces([known.index().space(), &space], change);
+                known.index().within(&limits).repair(&change)?
+            }
+            None => space.within(&limits).prepare(setup.engine)?.with_smoothing(setup.smoothing),
+        };
+        let planners = Arc::new(Planners::new(index));
         self.recent().planners.put(*setup, &planners);
         Ok(planners)
     }

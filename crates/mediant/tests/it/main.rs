@@ -5,6 +5,7 @@ mod catalog;
 mod dead_ends;
 mod described;
 mod door;
+mod edits;
 mod exceptions;
 mod field;
 mod goals;
