@@ -9,13 +9,17 @@
 //!
 //! Versions of a map share the tiles that did not change, by rows of tiles.
 
+mod patch;
 mod tile;
 
 use std::sync::{Arc, OnceLock};
 
-use self::tile::{DIRECTIONS, RowRun, SIDE, Tile};
+use self::{
+    patch::Changed,
+    tile::{DIRECTIONS, RowRun, SIDE, Tile},
+};
 use crate::{
-    Change, Grid, Vertex,
+    Change, Grid, Rectangle, Vertex,
     interrupt::{Interrupt, Interrupted, uninterrupted},
 };
 
@@ -135,10 +139,16 @@ impl Components {
     /// components must be joined anew, that is done when one is first asked for.
     #[must_use]
     pub fn after(&self, change: &Change) -> Self {
-        let mut changed: Vec<_> =
-            change.cells().iter().map(|at| (at.y as usize / SIDE, at.x as usize / SIDE)).collect();
-        changed.sort_unstable();
-        changed.dedup();
+        let mut changed: Vec<(usize, usize, Rectangle)> =
+            change.cells().iter().map(|at| (at.y as usize / SIDE, at.x as usize / SIDE, *at)).collect();
+        changed.sort_unstable_by_key(|&(row, column, _)| (row, column));
+        changed.dedup_by(|&mut (row, column, at), (kept_row, kept_column, all)| {
+            let is_same = (row, column) == (*kept_row, *kept_column);
+            if is_same {
+                *all = all.around(at);
+            }
+            is_same
+        });
         let tiles = self.tiles.iter().map(|row| row.len()).sum::<usize>();
         let of_the_same_size = change.before().id().size() == change.after().id().size();
         // Repairing a tile takes at most twice as long as making it.
@@ -147,8 +157,8 @@ impl Components {
         }
         let mut after = Self { grid: Arc::clone(change.after()), ..self.clone() };
         let mut meets_as_before = true;
-        for (row, column) in changed {
-            meets_as_before &= after.repair((column, row));
+        for (row, column, at) in changed {
+            meets_as_before &= after.repair((column, row), at, change.before());
         }
         if !meets_as_before {
             after.joined = Arc::default();
@@ -156,9 +166,18 @@ impl Components {
         after
     }
 
-    /// Finds the regions of a tile anew. Returns whether they meet those around as before.
-    fn repair(&mut self, at: (usize, usize)) -> bool {
+    /// Finds the regions of a tile anew, in which cells of a rectangle have changed. Returns whether they meet
+    /// those around as before.
+    fn repair(&mut self, at: (usize, usize), cells: Rectangle, map_before: &Grid) -> bool {
         let before = Arc::clone(&self.tiles[at.1][at.0]);
+        let within = |first: u32, length: u32| [first % SIDE as u32, (first + length - 1) % SIDE as u32];
+        let changed = Changed { rows: within(cells.y, cells.height), columns: within(cells.x, cells.width) };
+        let free = |map: &Grid, row: u32| word(map, at.0, at.1 * SIDE + row as usize);
+        let words_of = (|row| free(map_before, row), |row| free(&self.grid, row));
+        if let Some(tile) = before.patched(changed, words_of, self.connectivity) {
+            Arc::make_mut(&mut self.tiles[at.1])[at.0] = Arc::new(tile);
+            return true;
+        }
         let tile = Tile::new(words(&self.grid, at), self.connectivity, &Interrupt::NEVER);
         let Ok(mut tile) = tile else { unreachable!("nothing stops this work") };
         let places = std::array::from_fn(|direction| {
@@ -263,7 +282,12 @@ impl Components {
 /// The words of free cells of a tile.
 fn words(grid: &Grid, (column, row): (usize, usize)) -> impl Iterator<Item = u64> {
     let rows = row * SIDE..((row + 1) * SIDE).min(grid.height() as usize);
-    rows.map(move |y| !grid.rows().row(y as i32).word((SIDE * column) as i32))
+    rows.map(move |y| word(grid, column, y))
+}
+
+/// The free cells of a row of a tile in this column of tiles.
+fn word(grid: &Grid, column: usize, y: usize) -> u64 {
+    !grid.rows().row(y as i32).word((SIDE * column) as i32)
 }
 
 /// The place of the tile in a direction; `None` to the left of the map and above it.

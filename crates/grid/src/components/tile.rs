@@ -93,6 +93,30 @@ impl Tile {
         })
     }
 
+    /// The number of rows.
+    pub(super) fn height(&self) -> u32 {
+        self.height.into()
+    }
+
+    /// For each run, the number of its region.
+    pub(super) fn labels(&self) -> &[u32] {
+        &self.labels
+    }
+
+    /// The tile with other runs in the rows from `row` on: so many in each, and with these labels.
+    pub(super) fn with_labels(&self, row: usize, lengths: &[u16], new: &[u32]) -> Self {
+        let end = row + lengths.len();
+        let [from, to] = [row, end].map(|row| usize::from(self.first[row]));
+        let labels = [&self.labels[..from], new, &self.labels[to..]].concat().into();
+        let mut first = self.first;
+        for (i, length) in (row..).zip(lengths) {
+            first[i + 1] = first[i] + length;
+        }
+        let (old, new) = (self.first[end], first[end]);
+        first[end..].iter_mut().zip(&self.first[end..]).for_each(|(first, &was)| *first = was - old + new);
+        Self { first, labels, ..self.clone() }
+    }
+
     /// The number of regions.
     pub(super) const fn regions(&self) -> u32 {
         self.regions
