@@ -1,8 +1,8 @@
 //! One level of the abstract graph: clusters, their nodes, and the costs between these.
 
-use std::sync::Arc;
+use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Grid, Interrupt, Interrupted, Vertex};
+use mediant_grid::{Grid, Interrupt, Interrupted, VersionEdit, Versioned, Vertex};
 
 use super::fixed_cost::FixedCost;
 use crate::{HierarchyError, check, window::Window};
@@ -47,19 +47,32 @@ pub(crate) struct Cluster {
     pub(crate) costs: Arc<[FixedCost]>,
 }
 
-/// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be
+/// How a level cuts the map into clusters of `side` × `side` cells; those at the right and lower edge may be
 /// smaller.
 ///
 /// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
 /// nodes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Level {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
     pub(crate) side: u32,
     pub(crate) columns: u32,
     pub(crate) rows: u32,
     stride: u32,
-    pub(crate) nodes: Box<[Node]>,
-    pub(crate) clusters: Box<[Cluster]>,
+}
+
+/// A level. The next version is made in a [`LevelEdit`].
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Level {
+    shape: Shape,
+    pub(crate) nodes: Versioned<Node>,
+    pub(crate) clusters: Versioned<Cluster>,
+}
+
+/// The next version of a level while it is made.
+pub(crate) struct LevelEdit {
+    shape: Shape,
+    nodes: VersionEdit<Node>,
+    clusters: VersionEdit<Cluster>,
 }
 
 /// A rectangle of cells, without column `right` and row `bottom`.
@@ -80,6 +93,16 @@ impl Bounds {
         at.x >= self.left && at.x < self.right && at.y >= self.top && at.y < self.bottom
     }
 
+    /// The smallest bounds around two.
+    pub(crate) fn around(self, other: Self) -> Self {
+        Self {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
     /// The window of these cells, which must be those of a cluster of the lowest level.
     pub(crate) fn window(self, grid: &Grid) -> Window {
         let Self { left, top, right, bottom } = self;
@@ -89,16 +112,6 @@ impl Bounds {
 
 /// The values that are written between two questions of an interrupt.
 const PIECE: usize = 1 << 16;
-
-/// The same values again.
-fn copied<T: Clone>(values: &[T], interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
-    let mut copy = Vec::with_capacity(values.len());
-    for piece in values.chunks(PIECE) {
-        interrupt.check(super::DURING)?;
-        copy.extend_from_slice(piece);
-    }
-    Ok(copy)
-}
 
 /// So many copies of a value: those of a large map are gigabytes.
 fn filled<T: Clone>(value: &T, count: usize, interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
@@ -110,44 +123,10 @@ fn filled<T: Clone>(value: &T, count: usize, interrupt: &Interrupt) -> Result<Ve
     Ok(values)
 }
 
-impl Level {
-    /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
-    ///
-    /// # Errors
-    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed, [`HierarchyError::Interrupted`].
-    pub(crate) fn new(
-        grid: &Grid,
-        side: u32,
-        lowest_side: u32,
-        interrupt: &Interrupt,
-    ) -> Result<Self, HierarchyError> {
-        let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
-        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
-        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
-        // end another transition.
-        let half = lowest_side.div_ceil(2);
-        let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
-        let stride = 4 * (side / lowest_side) * on_border;
-        let count = columns * rows;
-        let nodes = u64::from(count) * u64::from(stride);
-        check::address_space(nodes)?;
-        Ok(Self {
-            side,
-            columns,
-            rows,
-            stride,
-            nodes: filled(&Node::UNUSED, nodes as usize, interrupt)?.into_boxed_slice(),
-            clusters: filled(&Cluster::default(), count as usize, interrupt)?.into_boxed_slice(),
-        })
-    }
-
-    /// A copy.
-    pub(crate) fn copied(&self, interrupt: &Interrupt) -> Result<Self, Interrupted> {
-        Ok(Self {
-            nodes: copied(&self.nodes, interrupt)?.into_boxed_slice(),
-            clusters: copied(&self.clusters, interrupt)?.into_boxed_slice(),
-            ..*self
-        })
+impl Shape {
+    /// The number of clusters.
+    pub(crate) const fn count(&self) -> u32 {
+        self.columns * self.rows
     }
 
     /// The cluster of a vertex.
@@ -173,7 +152,7 @@ impl Level {
     }
 
     /// The neighbors of a cluster: left, right, above, below.
-    pub(crate) fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
+    fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
         let (x, y) = (cluster % self.columns, cluster / self.columns);
         let beside = [(x > 0, cluster.wrapping_sub(1)), (x + 1 < self.columns, cluster + 1)];
         let above_and_below =
@@ -181,10 +160,102 @@ impl Level {
         beside.into_iter().chain(above_and_below).filter_map(|(exists, id)| exists.then_some(id))
     }
 
+    /// The clusters within these bounds, row by row.
+    pub(crate) fn within(
+        &self,
+        bounds: Bounds,
+    ) -> impl Iterator<Item = impl Iterator<Item = u32> + use<>> + use<> {
+        let span = |first: i32, end: i32| first as u32 / self.side..(end as u32).div_ceil(self.side);
+        let (columns, all) = (span(bounds.left, bounds.right), self.columns);
+        span(bounds.top, bounds.bottom).map(move |y| columns.clone().map(move |x| y * all + x))
+    }
+
+    /// These clusters and their neighbors, in ascending order.
+    pub(crate) fn with_neighbors(&self, clusters: &[u32]) -> Vec<u32> {
+        if clusters.len() == self.count() as usize {
+            return clusters.to_vec();
+        }
+        ascending(clusters.iter().flat_map(|&id| self.neighbors(id).chain([id])))
+    }
+
+    /// The clusters of this level that contain these of the level below, in ascending order.
+    pub(crate) fn parents(&self, below: &Self, clusters: &[u32]) -> Vec<u32> {
+        let factor = self.side / below.side;
+        ascending(clusters.iter().map(|&id| {
+            let (x, y) = (id % below.columns, id / below.columns);
+            y / factor * self.columns + x / factor
+        }))
+    }
+
     /// The number of the first node of a cluster.
     #[inline]
     pub(crate) const fn first_node(&self, cluster: u32) -> u32 {
         cluster * self.stride
+    }
+}
+
+fn ascending(ids: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut ids: Vec<u32> = ids.collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+impl Deref for Level {
+    type Target = Shape;
+
+    #[inline]
+    fn deref(&self) -> &Shape {
+        &self.shape
+    }
+}
+
+impl Deref for LevelEdit {
+    type Target = Shape;
+
+    fn deref(&self) -> &Shape {
+        &self.shape
+    }
+}
+
+impl Level {
+    /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
+    ///
+    /// # Errors
+    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed, [`HierarchyError::Interrupted`].
+    pub(crate) fn new(
+        grid: &Grid,
+        side: u32,
+        lowest_side: u32,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
+        let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
+        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
+        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
+        // end another transition.
+        let half = lowest_side.div_ceil(2);
+        let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
+        let stride = 4 * (side / lowest_side) * on_border;
+        let shape = Shape { side, columns, rows, stride };
+        let nodes = u64::from(shape.count()) * u64::from(stride);
+        check::address_space(nodes)?;
+        Ok(Self {
+            nodes: filled(&Node::UNUSED, nodes as usize, interrupt)?.into(),
+            clusters: filled(&Cluster::default(), shape.count() as usize, interrupt)?.into(),
+            shape,
+        })
+    }
+
+    /// Begins the next version: in place if nobody else holds this one.
+    pub(crate) fn edit(self: Arc<Self>) -> LevelEdit {
+        match Arc::try_unwrap(self) {
+            Ok(Self { shape, nodes, clusters }) => {
+                LevelEdit { shape, nodes: nodes.into_edit(), clusters: clusters.into_edit() }
+            }
+            Err(held) => {
+                LevelEdit { shape: held.shape, nodes: held.nodes.edit(), clusters: held.clusters.edit() }
+            }
+        }
     }
 
     /// The nodes of a cluster, in the order of their numbers.
@@ -206,6 +277,19 @@ impl Level {
         let (count, index) = (*count as usize, (id - self.first_node(self.node(id).cluster)) as usize);
         &costs[index * count..(index + 1) * count]
     }
+}
+
+impl LevelEdit {
+    /// The next version.
+    pub(crate) fn finish(self) -> Level {
+        Level { shape: self.shape, nodes: self.nodes.finish(), clusters: self.clusters.finish() }
+    }
+
+    /// The nodes of a cluster, in the order of their numbers.
+    pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
+        let first = self.first_node(cluster) as usize;
+        &self.nodes.words()[first..first + self.clusters.words()[cluster as usize].count as usize]
+    }
 
     /// The number of the node at a vertex, if there is one.
     fn node_at(&self, at: Vertex) -> Option<u32> {
@@ -223,13 +307,14 @@ impl Level {
             return false;
         }
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let first = self.first_node(cluster) as usize;
-        let slots = &mut self.nodes[first..first + self.stride as usize];
-        slots.fill(Node::UNUSED);
-        for (slot, &(at, below)) in slots.iter_mut().zip(cells) {
-            *slot = Node::new(at, cluster, below);
+        let (first, count) = (self.first_node(cluster) as usize, old.len());
+        let nodes = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
+        let unused = std::iter::repeat_n(Node::UNUSED, count.saturating_sub(cells.len()));
+        for (place, node) in (first..).zip(nodes.chain(unused)) {
+            self.nodes.set(place, node);
         }
-        self.clusters[cluster as usize].count = cells.len() as u32;
+        let costs = Arc::clone(&self.clusters.words()[cluster as usize].costs);
+        self.clusters.set(cluster as usize, Cluster { count: cells.len() as u32, costs });
         true
     }
 
@@ -238,14 +323,26 @@ impl Level {
     /// legal as well.
     pub(crate) fn join_across(&mut self, cluster: u32) {
         let first = self.first_node(cluster);
-        for id in first..first + self.clusters[cluster as usize].count {
-            let at = self.node(id).at();
+        for id in first..first + self.clusters.words()[cluster as usize].count {
+            let node = self.nodes.words()[id as usize];
             let mut across = [(-1, 0), (1, 0), (0, -1), (0, 1)]
                 .into_iter()
-                .map(|d| at + d.into())
+                .map(|d| node.at() + d.into())
                 .filter(|&other| self.is_in_cluster(other) && self.cluster_at(other) != cluster)
                 .filter_map(|other| self.node_at(other));
-            self.nodes[id as usize].across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
+            let across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
+            self.nodes.set(id as usize, Node { across, ..node });
         }
+    }
+
+    /// Replaces the costs between the nodes of a cluster. Returns whether that changed them.
+    pub(crate) fn set_costs(&mut self, cluster: u32, costs: &[FixedCost]) -> bool {
+        let Cluster { count, costs: old } = &self.clusters.words()[cluster as usize];
+        let is_new = **old != *costs;
+        if is_new {
+            let next = Cluster { count: *count, costs: costs.into() };
+            self.clusters.set(cluster as usize, next);
+        }
+        is_new
     }
 }

@@ -1,6 +1,9 @@
 //! Answering queries on a [`ClusterGraph`].
 
-use std::ops::{Deref, DerefMut};
+use std::{
+    ops::{Deref, DerefMut},
+    sync::Arc,
+};
 
 use mediant_grid::{Centers, Change, GridGraph, Identity, Vertex};
 use mediant_moves::Cost;
@@ -178,7 +181,7 @@ where
             self.phase = Phase::Found { goal, is_direct: true };
             return Ok(SearchStatus::Found);
         }
-        let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
+        let separates = |level: &Arc<Level>| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
         let direct = self.insert(query, top, &mut Part::new(observer));
         let query = AbstractQuery { start, goal, top, direct };

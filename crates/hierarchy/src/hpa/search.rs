@@ -29,12 +29,12 @@ pub(crate) struct Goal<'c> {
 
 impl Level {
     /// The number of the start of a search, which need not be a node.
-    pub(crate) const fn start_id(&self) -> u32 {
+    pub(crate) fn start_id(&self) -> u32 {
         self.nodes.len() as u32
     }
 
     /// The number of its goal.
-    pub(crate) const fn goal_id(&self) -> u32 {
+    pub(crate) fn goal_id(&self) -> u32 {
         self.nodes.len() as u32 + 1
     }
 }
