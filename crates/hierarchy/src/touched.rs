@@ -10,6 +10,8 @@ pub(crate) struct Squares {
     pub(crate) side: u32,
     /// The columns to the left and to the right.
     pub(crate) beside: u32,
+    /// The rows further up.
+    pub(crate) above: u32,
     /// The rows further down.
     pub(crate) below: u32,
 }
@@ -23,7 +25,7 @@ pub(crate) fn touched(
     squares: Squares,
     (interrupt, during): (&Interrupt, &'static str),
 ) -> Result<Vec<u32>, Interrupted> {
-    let Squares { side, beside, below } = squares;
+    let Squares { side, beside, above, below } = squares;
     let [columns, rows] = [change.after().width(), change.after().height()].map(|cells| cells.div_ceil(side));
     let mut touched = Vec::new();
     for (number, &at) in change.cells().iter().enumerate() {
@@ -35,8 +37,8 @@ pub(crate) fn touched(
         let part = |from: u32, to: u32, first: u32, length: u32| {
             from.saturating_sub(first)..to.saturating_sub(first).min(length)
         };
-        for y in first(at.y, below)..end(at.y + at.height, rows) {
-            let lines = part(y * side, (y + 1) * side + below, at.y, at.height);
+        for y in first(at.y, below)..end(at.y + at.height + above, rows) {
+            let lines = part((y * side).saturating_sub(above), (y + 1) * side + below, at.y, at.height);
             let seen =
                 differing[lines.start as usize..lines.end as usize].iter().fold(0, |all, row| all | row);
             for x in first(at.x, beside)..end(at.x + at.width + beside, columns) {

@@ -140,7 +140,7 @@ impl SegmentGraph {
         interrupt: &Interrupt,
     ) -> Result<Versioned<u8>, Interrupted> {
         // The windows of a segment reach one cell beyond it to the left, to the right, and downward.
-        let segments = Squares { side: self.side, beside: 1, below: 1 };
+        let segments = Squares { side: self.side, beside: 1, above: 0, below: 1 };
         for (number, segment) in touched(change, segments, (interrupt, DURING))?.into_iter().enumerate() {
             interrupt.check_every(SEGMENTS, number, DURING)?;
             let (x, y) = (segment % self.columns, segment / self.columns);

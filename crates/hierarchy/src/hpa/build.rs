@@ -11,7 +11,7 @@ use super::{
     cluster_search::ClusterSearch,
     fixed_cost::FixedCost,
     join::Part,
-    level::{Bounds, Level, LevelEdit, NONE, Shape},
+    level::{Bounds, Level, LevelEdit, NONE, Node, Shape},
 };
 use crate::window::{low_bits, rows_of};
 
@@ -31,148 +31,203 @@ pub(crate) struct Builder<'b> {
     pub(crate) interrupt: &'b Interrupt,
 }
 
-/// A cluster of which something is made anew.
-#[derive(Clone, Copy)]
-pub(crate) struct Rebuilt {
-    id: u32,
-    /// Whether its nodes are others.
-    has_other_nodes: bool,
+/// Clusters of a level, in ascending order, of which something is to be made anew.
+pub(crate) struct Dirty {
+    /// The clusters whose nodes may change.
+    pub(crate) nodes: Vec<u32>,
+    /// The clusters in which costs may change, even if the nodes stay.
+    pub(crate) costs: Vec<u32>,
+}
+
+impl Dirty {
+    /// All clusters of a level.
+    pub(crate) fn all(level: &Shape) -> Self {
+        let all: Vec<u32> = (0..level.count()).collect();
+        Self { nodes: all.clone(), costs: all }
+    }
+
+    /// The clusters of the next level that depend on what changed in the one below: an upper cluster's nodes
+    /// are those below from which a step leads out of it, its costs come from those of its parts.
+    fn above(level: &Shape, below: &Shape, changed: &Self) -> Self {
+        let nodes = level.parents(below, &below.with_neighbors(&changed.nodes));
+        Self { nodes, costs: level.parents(below, &changed.costs) }
+    }
 }
 
 impl Builder<'_> {
-    /// Rebuilds these clusters of the lowest level, in ascending order, and all that depends on them. A level
-    /// of which nothing changes is the one that was handed in.
+    /// Rebuilds what is dirty on the lowest level, and all that depends on it. A level of which nothing
+    /// changes is the one that was handed in.
     pub(crate) fn rebuild(
         &self,
         levels: impl IntoIterator<Item = Arc<Level>>,
-        mut dirty: Vec<u32>,
+        mut dirty: Dirty,
     ) -> Result<Box<[Arc<Level>]>, Interrupted> {
         let mut rebuilt: Vec<Arc<Level>> = Vec::new();
         for level in levels {
             let below = rebuilt.last();
             if let Some(below) = below {
-                dirty = level.parents(below, &dirty);
+                dirty = Dirty::above(&level, below, &dirty);
             }
-            if !dirty.is_empty() {
-                let mut edit = level.edit();
-                let clusters = self.rebuild_nodes(&mut edit, below, &dirty)?;
-                dirty = match below {
-                    None => self.find_lowest_costs(&mut edit, &clusters)?,
-                    Some(below) => self.find_upper_costs(&mut edit, below, &clusters)?,
-                };
-                rebuilt.push(Arc::new(edit.finish()));
-            } else {
+            if dirty.nodes.is_empty() && dirty.costs.is_empty() {
                 rebuilt.push(level);
+                continue;
             }
+            let mut edit = level.edit();
+            let nodes = self.rebuild_nodes(&mut edit, below, &dirty.nodes)?;
+            let mut costs = union(&dirty.costs, &nodes);
+            match below {
+                None => self.find_lowest_costs(&mut edit, &mut costs)?,
+                Some(below) => self.find_upper_costs(&mut edit, below, &mut costs)?,
+            }
+            dirty = Dirty { costs: union(&costs, &nodes), nodes };
+            rebuilt.push(Arc::new(edit.finish()));
         }
         Ok(rebuilt.into())
     }
 
-    /// Rebuilds the nodes of a level in the dirty clusters, and in their neighbors, whose entrances may have
-    /// changed with them. Returns the clusters whose costs must be found again: the dirty ones, and the
-    /// neighbors whose nodes changed.
+    /// Rebuilds the nodes of clusters. Returns the clusters whose nodes changed.
     pub(crate) fn rebuild_nodes(
         &self,
         level: &mut LevelEdit,
         below: Option<&Arc<Level>>,
-        dirty: &[u32],
-    ) -> Result<Vec<Rebuilt>, Interrupted> {
-        let mut cells = Vec::new();
-        let (mut rebuilt, mut changed) = (Vec::new(), Vec::new());
-        let with_neighbors = level.with_neighbors(dirty);
-        let mut dirty = dirty.iter().peekable();
-        for (number, id) in with_neighbors.into_iter().enumerate() {
+        clusters: &[u32],
+    ) -> Result<Vec<u32>, Interrupted> {
+        let (mut cells, mut changed) = (Vec::new(), Vec::new());
+        for (number, &id) in clusters.iter().enumerate() {
             self.interrupt.check_every(CLUSTERS, number, DURING)?;
-            let is_dirty = dirty.next_if_eq(&&id).is_some();
             cells.clear();
             match below {
                 None => lowest_cells(level, self.grid, id, &mut cells),
                 Some(below) => upper_cells(level, below, self.grid, id, &mut cells),
             }
-            let has_other_nodes = level.set_nodes(id, &cells);
-            if has_other_nodes {
+            if level.set_nodes(id, &cells) {
                 changed.push(id);
-            }
-            if is_dirty || has_other_nodes {
-                rebuilt.push(Rebuilt { id, has_other_nodes });
             }
         }
         for (number, id) in level.with_neighbors(&changed).into_iter().enumerate() {
             self.interrupt.check_every(CLUSTERS, number, DURING)?;
             level.join_across(id);
         }
-        Ok(rebuilt)
-    }
-
-    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
-    /// of each. Returns the clusters of which nodes or costs changed.
-    fn find_lowest_costs(
-        &self,
-        level: &mut LevelEdit,
-        clusters: &[Rebuilt],
-    ) -> Result<Vec<u32>, Interrupted> {
-        let (mut bit_search, mut cluster_search) = (BitSearch::new(self.k), None);
-        let (mut costs, mut changed) = (Vec::new(), Vec::new());
-        for &Rebuilt { id, has_other_nodes } in clusters {
-            let window = level.bounds(id, self.grid).window(self.grid);
-            let cells: Vec<u32> = level.nodes_of(id).iter().map(|node| window.cell(node.at())).collect();
-            let small = BitCells::new(&window).filter(|_| !window.is_free());
-            let sets: Vec<_> =
-                cells.iter().filter(|_| small.is_some()).map(|&cell| BitCells::cell(cell)).collect();
-            let count = cells.len();
-            costs.clear();
-            costs.resize(count * count, FixedCost::NONE);
-            for (from, &cell) in cells.iter().enumerate() {
-                self.interrupt.check(DURING)?;
-                costs[from * count + from] = FixedCost::ZERO;
-                let later = &mut costs[from * count..][from + 1..count];
-                if let Some(small) = &small {
-                    bit_search.find(small, sets[from], &sets[from + 1..], later);
-                } else {
-                    let search = cluster_search.get_or_insert_with(|| ClusterSearch::new(self.k));
-                    let targets = &cells[from + 1..];
-                    search.flood(self.costs, &window, cell, &rows_of(targets), &mut ());
-                    let found = targets.iter().map(|&target| FixedCost::new(search.cost(target)));
-                    later.iter_mut().zip(found).for_each(|(cost, found)| *cost = found);
-                }
-            }
-            // Costs hold in both directions.
-            for from in 0..count {
-                for to in 0..from {
-                    costs[from * count + to] = costs[to * count + from];
-                }
-            }
-            if level.set_costs(id, &costs) || has_other_nodes {
-                changed.push(id);
-            }
-        }
         Ok(changed)
     }
 
+    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
+    /// of each. Keeps of the clusters those in which a cost changed.
+    fn find_lowest_costs(&self, level: &mut LevelEdit, clusters: &mut Vec<u32>) -> Result<(), Interrupted> {
+        let mut search = LowestSearch::new(self);
+        let mut costs = Vec::new();
+        keep_changed(clusters, |id| {
+            search.find(level.bounds(id, self.grid), level.nodes_of(id), &mut costs)?;
+            Ok(level.set_costs(id, &costs))
+        })
+    }
+
     /// Finds the costs between the nodes of clusters of an upper level, from those within the clusters of the
-    /// level below. Returns the clusters of which nodes or costs changed.
+    /// level below. Keeps of the clusters those in which a cost changed.
     fn find_upper_costs(
         &self,
         level: &mut LevelEdit,
         below: &Level,
-        clusters: &[Rebuilt],
-    ) -> Result<Vec<u32>, Interrupted> {
-        let (mut costs, mut changed) = (Vec::new(), Vec::new());
-        for &Rebuilt { id, has_other_nodes } in clusters {
+        clusters: &mut Vec<u32>,
+    ) -> Result<(), Interrupted> {
+        let mut costs = Vec::new();
+        keep_changed(clusters, |id| {
             self.interrupt.check(DURING)?;
             // All nodes of a part lead out of it, and so do those of the whole.
             let rows = below.within(level.bounds(id, self.grid)).map(|row| {
-                let clusters = row.map(|child| Part::cluster(below, child, below.bounds(child, self.grid)));
-                clusters.reduce(|left, right| left.joined(&right, below))
+                let parts = row.map(|child| Part::cluster(below, child, below.bounds(child, self.grid)));
+                parts.reduce(|left, right| left.joined(&right, below))
             });
-            let joined = rows.flatten().reduce(|upper, lower| upper.joined(&lower, below));
+            let whole = rows.flatten().reduce(|upper, lower| upper.joined(&lower, below));
             costs.clear();
-            costs.extend(joined.iter().flat_map(Part::fixed_costs));
-            if level.set_costs(id, &costs) || has_other_nodes {
-                changed.push(id);
+            costs.extend(whole.iter().flat_map(Part::fixed_costs));
+            Ok(level.set_costs(id, &costs))
+        })
+    }
+}
+
+/// The clusters of two lists in ascending order, as one.
+fn union(one: &[u32], other: &[u32]) -> Vec<u32> {
+    let mut both = [one, other].concat();
+    both.sort_unstable();
+    both.dedup();
+    both
+}
+
+/// Keeps those clusters for which `find` says that something changed.
+fn keep_changed(
+    clusters: &mut Vec<u32>,
+    mut find: impl FnMut(u32) -> Result<bool, Interrupted>,
+) -> Result<(), Interrupted> {
+    let mut result = Ok(());
+    clusters.retain(|&id| {
+        result.is_ok()
+            && find(id).unwrap_or_else(|error| {
+                result = Err(error);
+                false
+            })
+    });
+    result
+}
+
+/// The searches within clusters of the lowest level, with their scratch memory.
+struct LowestSearch<'b> {
+    builder: &'b Builder<'b>,
+    small: BitSearch,
+    /// Made when first needed.
+    large: Option<ClusterSearch>,
+    cells: Vec<u32>,
+    sets: Vec<u128>,
+}
+
+impl<'b> LowestSearch<'b> {
+    fn new(builder: &'b Builder<'b>) -> Self {
+        let small = BitSearch::new(builder.k);
+        Self { builder, small, large: None, cells: Vec::new(), sets: Vec::new() }
+    }
+
+    /// Writes to `costs` those from each of the nodes of a cluster to each, row by row.
+    fn find(
+        &mut self,
+        bounds: Bounds,
+        nodes: &[Node],
+        costs: &mut Vec<FixedCost>,
+    ) -> Result<(), Interrupted> {
+        let Self { builder, small, large, cells, sets } = self;
+        let &Builder { grid, k, costs: empty, interrupt } = *builder;
+        let (window, count) = (bounds.window(grid), nodes.len());
+        cells.clear();
+        cells.extend(nodes.iter().map(|node| window.cell(node.at())));
+        // On an empty window there is nothing to search.
+        let of_bits = BitCells::new(&window).filter(|_| !window.is_free());
+        if of_bits.is_some() {
+            sets.clear();
+            sets.extend(cells.iter().map(|&cell| BitCells::cell(cell)));
+        }
+        costs.clear();
+        costs.resize(count * count, FixedCost::NONE);
+        for (from, &cell) in cells.iter().enumerate() {
+            interrupt.check(DURING)?;
+            costs[from * count + from] = FixedCost::ZERO;
+            let later = &mut costs[from * count..][from + 1..count];
+            if let Some(of_bits) = &of_bits {
+                small.find(of_bits, sets[from], &sets[from + 1..], later);
+                continue;
+            }
+            let search = large.get_or_insert_with(|| ClusterSearch::new(k));
+            let targets = &cells[from + 1..];
+            search.flood(empty, &window, cell, &rows_of(targets), &mut ());
+            for (cost, &target) in later.iter_mut().zip(targets) {
+                *cost = FixedCost::new(search.cost(target));
             }
         }
-        Ok(changed)
+        // Costs hold in both directions.
+        for from in 0..count {
+            for to in 0..from {
+                costs[from * count + to] = costs[to * count + from];
+            }
+        }
+        Ok(())
     }
 }
 

@@ -5,7 +5,12 @@ use std::sync::Arc;
 use mediant_grid::{Centers, Change, Grid, GridGraph, Identity, Interrupt, Interrupted, uninterrupted};
 use mediant_moves::{CostTable, FiniteK};
 
-use super::{DURING, build::Builder, clustering::Clustering, level::Level};
+use super::{
+    DURING,
+    build::{Builder, Dirty},
+    clustering::Clustering,
+    level::Level,
+};
 use crate::{
     HierarchyError, check,
     touched::{Squares, touched},
@@ -64,7 +69,7 @@ impl ClusterGraph {
     ) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
         let levels = std::mem::take(&mut graph.levels);
-        let all = (0..levels[0].count()).collect();
+        let all = Dirty::all(&levels[0]);
         graph.levels = graph.builder(grid_graph.grid(), interrupt).rebuild(levels, all)?;
         Ok(graph)
     }
@@ -130,8 +135,11 @@ impl ClusterGraph {
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Box<[Arc<Level>]>, Interrupted> {
-        let clusters = Squares { side: self.clustering.side, beside: 0, below: 0 };
-        let dirty = touched(change, clusters, (interrupt, DURING))?;
+        // The transitions of a cluster depend on the cells along its borders, on either side.
+        let side = self.clustering.side;
+        let [costs, nodes] = [0, 1].map(|reach| Squares { side, beside: reach, above: reach, below: reach });
+        let touched = |squares| touched(change, squares, (interrupt, DURING));
+        let dirty = Dirty { nodes: touched(nodes)?, costs: touched(costs)? };
         self.builder(change.after(), interrupt).rebuild(levels, dirty)
     }
 

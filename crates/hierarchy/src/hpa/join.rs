@@ -39,8 +39,9 @@ impl Part {
 
     /// The costs, as an index stores them.
     pub(crate) fn fixed_costs(&self) -> impl Iterator<Item = FixedCost> {
-        // The conversion saturates, and the largest number means that there is no path.
-        self.costs.iter().map(|&cost| FixedCost::from_bits(cost as u32))
+        // The largest number means that there is no path. The low bits of 2⁵² + n are those of n.
+        let bits = |cost: f64| (cost.min(f64::from(u32::MAX)) + (1_u64 << 52) as f64).to_bits();
+        self.costs.iter().map(move |&cost| FixedCost::from_bits(bits(cost) as u32))
     }
 
     fn row(&self, node: usize) -> &[f64] {
