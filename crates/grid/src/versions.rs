@@ -105,6 +105,16 @@ impl<W: Clone + PartialEq> VersionEdit<W> {
         }
     }
 
+    /// A word, to be changed in place: it counts as changed.
+    #[must_use]
+    #[inline]
+    pub fn word_mut(&mut self, at: usize) -> &mut W {
+        if self.changed.last() != Some(&(at as u32)) {
+            self.changed.push(at as u32);
+        }
+        &mut self.words[at]
+    }
+
     /// Whether any word was changed.
     #[must_use]
     pub fn is_changed(&self) -> bool {
@@ -269,7 +279,11 @@ mod tests {
             let most = [3, 3, 3, 80, 300][random(5)];
             for _ in 0..random(most) {
                 let (at, word) = (random(200), random(7) as u32);
-                edit.set(at, word);
+                if random(2) == 0 {
+                    edit.set(at, word);
+                } else {
+                    *edit.word_mut(at) = word;
+                }
                 words[at] = word;
             }
             let next = edit.finish();

@@ -37,8 +37,8 @@ impl ClusterGraph {
         let mut write = |word: u32| bytes.extend(word.to_le_bytes());
         let Clustering { side, levels } = self.clustering;
         [side, levels].into_iter().for_each(&mut write);
-        let clusters = self.levels.iter().flat_map(|level| level.clusters.iter());
-        for (number, Cluster { count, costs }) in clusters.enumerate() {
+        let clusters = self.levels.iter().flat_map(|level| level.clusters());
+        for (number, Cluster { count, costs, .. }) in clusters.enumerate() {
             interrupt.check_every(64, number, Interrupted::WRITING)?;
             write(*count);
             for from in 0..*count as usize {

@@ -158,30 +158,23 @@ impl ClusterGraph {
     /// The number of clusters of the lowest level.
     #[must_use]
     pub fn clusters(&self) -> usize {
-        self.levels[0].clusters.len()
+        self.levels[0].count() as usize
     }
 
     /// The number of nodes of the lowest level: the cells at which transitions end.
     #[must_use]
     pub fn nodes(&self) -> usize {
-        self.levels[0].clusters.iter().map(|cluster| cluster.count as usize).sum()
+        self.levels[0].clusters().map(|cluster| cluster.count as usize).sum()
     }
 
     /// The most numbers of nodes of a level.
     pub(super) fn most_nodes(&self) -> usize {
-        self.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0)
+        self.levels.iter().map(|level| level.node_numbers() as usize).max().unwrap_or(0)
     }
 
     /// The memory that the index uses, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.levels
-            .iter()
-            .map(|level| {
-                size_of_val(&*level.nodes)
-                    + size_of_val(&*level.clusters)
-                    + level.clusters.iter().map(|cluster| size_of_val(&*cluster.costs)).sum::<usize>()
-            })
-            .sum()
+        self.levels.iter().map(|level| level.memory_bytes()).sum()
     }
 }

@@ -7,7 +7,7 @@
 
 use super::{
     fixed_cost::FixedCost,
-    level::{Bounds, Level},
+    level::{Bounds, Cluster, Level},
 };
 
 /// One or several clusters of a level: some of their nodes, and the costs between these within them.
@@ -28,11 +28,11 @@ const STEP: f64 = 65_536.0;
 impl Part {
     /// A cluster.
     pub(crate) fn cluster(level: &Level, cluster: u32, bounds: Bounds) -> Self {
-        let first = level.first_node(cluster);
-        let costs = level.clusters[cluster as usize].costs.iter().map(|cost| cost.to_bits());
+        let Cluster { first, count, costs } = level.cluster(cluster);
+        let costs = costs.iter().map(|cost| cost.to_bits());
         Self {
             bounds,
-            ids: (first..first + level.clusters[cluster as usize].count).collect(),
+            ids: (*first..first + count).collect(),
             costs: costs.map(|cost| if cost == u32::MAX { f64::INFINITY } else { f64::from(cost) }).collect(),
         }
     }

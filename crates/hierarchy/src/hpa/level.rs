@@ -2,9 +2,9 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Grid, Interrupt, Interrupted, VersionEdit, Versioned, Vertex};
+use mediant_grid::{Grid, Interrupt, VersionEdit, Versioned, Vertex};
 
-use super::fixed_cost::FixedCost;
+use super::{clustering::Clustering, fixed_cost::FixedCost};
 use crate::{HierarchyError, check, window::Window};
 
 /// No node.
@@ -39,19 +39,30 @@ impl Node {
     }
 }
 
-/// A cluster: the number of its nodes, and the costs from each to each within it, row by row. A repaired
+/// A cluster: the numbers of its nodes, and the costs from each to each within it, row by row. A repaired
 /// index shares with the one before what did not change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cluster {
+    /// The number of its first node.
+    pub(crate) first: u32,
     pub(crate) count: u32,
     pub(crate) costs: Arc<[FixedCost]>,
 }
+
+/// Nodes with successive numbers. Versions of a level share the blocks in which nothing changed.
+type NodeBlock = [Node; NODES];
+/// Clusters with successive numbers.
+type ClusterBlock = [Cluster; CLUSTERS];
+
+/// A cluster has at most so many nodes: all cells along the sides of the largest.
+const NODES: usize = 4 * Clustering::MAX_SIDE as usize;
+const CLUSTERS: usize = 32;
 
 /// How a level cuts the map into clusters of `side` × `side` cells; those at the right and lower edge may be
 /// smaller.
 ///
 /// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
-/// nodes.
+/// nodes. They are in one block of nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shape {
     pub(crate) side: u32,
@@ -64,15 +75,15 @@ pub(crate) struct Shape {
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Level {
     shape: Shape,
-    pub(crate) nodes: Versioned<Node>,
-    pub(crate) clusters: Versioned<Cluster>,
+    nodes: Versioned<Arc<NodeBlock>>,
+    clusters: Versioned<Arc<ClusterBlock>>,
 }
 
 /// The next version of a level while it is made.
 pub(crate) struct LevelEdit {
     shape: Shape,
-    nodes: VersionEdit<Node>,
-    clusters: VersionEdit<Cluster>,
+    nodes: VersionEdit<Arc<NodeBlock>>,
+    clusters: VersionEdit<Arc<ClusterBlock>>,
 }
 
 /// A rectangle of cells, without column `right` and row `bottom`.
@@ -110,17 +121,31 @@ impl Bounds {
     }
 }
 
-/// The values that are written between two questions of an interrupt.
-const PIECE: usize = 1 << 16;
+/// The blocks that are made between two questions of an interrupt.
+const PIECE: usize = 1 << 10;
 
-/// So many copies of a value: those of a large map are gigabytes.
-fn filled<T: Clone>(value: &T, count: usize, interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
-    let mut values = Vec::with_capacity(count);
-    while values.len() < count {
-        interrupt.check(super::DURING)?;
-        values.resize(count.min(values.len() + PIECE), value.clone());
-    }
-    Ok(values)
+/// A block of the next version, to be changed. It is copied if another version has it.
+fn block_mut<T: Clone + PartialEq>(edit: &mut VersionEdit<Arc<T>>, number: usize) -> &mut T {
+    Arc::make_mut(edit.word_mut(number))
+}
+
+/// One of the clusters of these blocks.
+#[inline]
+fn cluster(blocks: &[Arc<ClusterBlock>], id: u32) -> &Cluster {
+    &blocks[id as usize / CLUSTERS][id as usize % CLUSTERS]
+}
+
+/// One of the nodes of these blocks.
+#[inline]
+fn node(blocks: &[Arc<NodeBlock>], id: u32) -> &Node {
+    &blocks[id as usize / NODES][id as usize % NODES]
+}
+
+/// The nodes of a cluster, in the order of their numbers.
+#[inline]
+fn nodes_of<'b>(blocks: &'b [Arc<NodeBlock>], cluster: &Cluster) -> &'b [Node] {
+    let first = cluster.first as usize;
+    &blocks[first / NODES][first % NODES..][..cluster.count as usize]
 }
 
 impl Shape {
@@ -188,9 +213,9 @@ impl Shape {
     }
 
     /// The number of the first node of a cluster.
-    #[inline]
-    pub(crate) const fn first_node(&self, cluster: u32) -> u32 {
-        cluster * self.stride
+    const fn place(&self, cluster: u32) -> u32 {
+        let in_block = NODES as u32 / self.stride;
+        cluster / in_block * NODES as u32 + cluster % in_block * self.stride
     }
 }
 
@@ -237,13 +262,18 @@ impl Level {
         let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
         let stride = 4 * (side / lowest_side) * on_border;
         let shape = Shape { side, columns, rows, stride };
-        let nodes = u64::from(shape.count()) * u64::from(stride);
-        check::address_space(nodes)?;
-        Ok(Self {
-            nodes: filled(&Node::UNUSED, nodes as usize, interrupt)?.into(),
-            clusters: filled(&Cluster::default(), shape.count() as usize, interrupt)?.into(),
-            shape,
-        })
+        let blocks = u64::from(shape.count()).div_ceil(NODES as u64 / u64::from(stride));
+        check::address_space(blocks * NODES as u64)?;
+        // Blocks are copied when they are first written to.
+        let block = Arc::new([Node::UNUSED; NODES]);
+        let mut clusters = Vec::new();
+        for block in 0..shape.count().div_ceil(CLUSTERS as u32) {
+            interrupt.check_every(PIECE, block as usize, super::DURING)?;
+            let first = |number| shape.place(block * CLUSTERS as u32 + number as u32);
+            let cluster = |number| Cluster { first: first(number), ..Cluster::default() };
+            clusters.push(Arc::new(std::array::from_fn(cluster)));
+        }
+        Ok(Self { nodes: vec![block; blocks as usize].into(), clusters: clusters.into(), shape })
     }
 
     /// Begins the next version: in place if nobody else holds this one.
@@ -258,24 +288,54 @@ impl Level {
         }
     }
 
+    #[inline]
+    pub(crate) fn cluster(&self, id: u32) -> &Cluster {
+        cluster(&self.clusters, id)
+    }
+
+    /// All clusters, row by row.
+    pub(crate) fn clusters(&self) -> impl Iterator<Item = &Cluster> {
+        (0..self.count()).map(|id| self.cluster(id))
+    }
+
     /// The nodes of a cluster, in the order of their numbers.
     #[inline]
     pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
-        let first = self.first_node(cluster) as usize;
-        &self.nodes[first..first + self.clusters[cluster as usize].count as usize]
+        nodes_of(&self.nodes, self.cluster(cluster))
+    }
+
+    /// The number of the first node of a cluster.
+    #[inline]
+    pub(crate) fn first_node(&self, cluster: u32) -> u32 {
+        self.cluster(cluster).first
     }
 
     #[inline]
     pub(crate) fn node(&self, id: u32) -> &Node {
-        &self.nodes[id as usize]
+        node(&self.nodes, id)
+    }
+
+    /// All numbers of nodes are below this one. It depends on the size of the map and the clustering alone.
+    #[inline]
+    pub(crate) fn node_numbers(&self) -> u32 {
+        (self.nodes.len() * NODES) as u32
     }
 
     /// The costs from a node to each node of its cluster.
     #[inline]
     pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
-        let Cluster { count, costs } = &self.clusters[self.node(id).cluster as usize];
-        let (count, index) = (*count as usize, (id - self.first_node(self.node(id).cluster)) as usize);
+        let Cluster { first, count, costs } = self.cluster(self.node(id).cluster);
+        let (count, index) = (*count as usize, (id - first) as usize);
         &costs[index * count..(index + 1) * count]
+    }
+
+    /// The memory that it uses, in bytes.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        // Blocks without nodes are one and the same.
+        let is_used = |block: &&Arc<NodeBlock>| block.iter().any(|node| *node != Node::UNUSED);
+        self.nodes.iter().filter(is_used).map(|block| size_of_val(&**block)).sum::<usize>()
+            + self.clusters.iter().map(|block| size_of_val(&**block)).sum::<usize>()
+            + self.clusters().map(|cluster| size_of_val(&*cluster.costs)).sum::<usize>()
     }
 }
 
@@ -285,17 +345,28 @@ impl LevelEdit {
         Level { shape: self.shape, nodes: self.nodes.finish(), clusters: self.clusters.finish() }
     }
 
+    fn cluster(&self, id: u32) -> &Cluster {
+        cluster(self.clusters.words(), id)
+    }
+
+    fn cluster_mut(&mut self, id: u32) -> &mut Cluster {
+        &mut block_mut(&mut self.clusters, id as usize / CLUSTERS)[id as usize % CLUSTERS]
+    }
+
     /// The nodes of a cluster, in the order of their numbers.
     pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
-        let first = self.first_node(cluster) as usize;
-        &self.nodes.words()[first..first + self.clusters.words()[cluster as usize].count as usize]
+        nodes_of(self.nodes.words(), self.cluster(cluster))
+    }
+
+    fn node_mut(&mut self, id: u32) -> &mut Node {
+        &mut block_mut(&mut self.nodes, id as usize / NODES)[id as usize % NODES]
     }
 
     /// The number of the node at a vertex, if there is one.
     fn node_at(&self, at: Vertex) -> Option<u32> {
         let cluster = self.cluster_at(at);
         let index = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
-        Some(self.first_node(cluster) + index as u32)
+        Some(self.cluster(cluster).first + index as u32)
     }
 
     /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
@@ -307,14 +378,13 @@ impl LevelEdit {
             return false;
         }
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let (first, count) = (self.first_node(cluster) as usize, old.len());
+        let (first, count) = (self.cluster(cluster).first, old.len());
         let nodes = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
         let unused = std::iter::repeat_n(Node::UNUSED, count.saturating_sub(cells.len()));
-        for (place, node) in (first..).zip(nodes.chain(unused)) {
-            self.nodes.set(place, node);
+        for (id, node) in (first..).zip(nodes.chain(unused)) {
+            *self.node_mut(id) = node;
         }
-        let costs = Arc::clone(&self.clusters.words()[cluster as usize].costs);
-        self.clusters.set(cluster as usize, Cluster { count: cells.len() as u32, costs });
+        self.cluster_mut(cluster).count = cells.len() as u32;
         true
     }
 
@@ -322,26 +392,26 @@ impl LevelEdit {
     /// transition, and in the corners of clusters also ends of different transitions, between which a step is
     /// legal as well.
     pub(crate) fn join_across(&mut self, cluster: u32) {
-        let first = self.first_node(cluster);
-        for id in first..first + self.clusters.words()[cluster as usize].count {
-            let node = self.nodes.words()[id as usize];
+        let &Cluster { first, count, .. } = self.cluster(cluster);
+        for id in first..first + count {
+            let node = node(self.nodes.words(), id);
             let mut across = [(-1, 0), (1, 0), (0, -1), (0, 1)]
                 .into_iter()
                 .map(|d| node.at() + d.into())
                 .filter(|&other| self.is_in_cluster(other) && self.cluster_at(other) != cluster)
                 .filter_map(|other| self.node_at(other));
             let across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
-            self.nodes.set(id as usize, Node { across, ..node });
+            if across != node.across {
+                self.node_mut(id).across = across;
+            }
         }
     }
 
     /// Replaces the costs between the nodes of a cluster. Returns whether that changed them.
     pub(crate) fn set_costs(&mut self, cluster: u32, costs: &[FixedCost]) -> bool {
-        let Cluster { count, costs: old } = &self.clusters.words()[cluster as usize];
-        let is_new = **old != *costs;
+        let is_new = *self.cluster(cluster).costs != *costs;
         if is_new {
-            let next = Cluster { count: *count, costs: costs.into() };
-            self.clusters.set(cluster as usize, next);
+            self.cluster_mut(cluster).costs = costs.into();
         }
         is_new
     }

@@ -9,7 +9,7 @@ use mediant_search::{
 
 use super::{
     fixed_cost::FixedCost,
-    level::{Bounds, Level},
+    level::{Bounds, Level, Node},
 };
 
 /// The start or the goal of a search: its cluster, and the costs between it and each node of that cluster.
@@ -30,12 +30,12 @@ pub(crate) struct Goal<'c> {
 impl Level {
     /// The number of the start of a search, which need not be a node.
     pub(crate) fn start_id(&self) -> u32 {
-        self.nodes.len() as u32
+        self.node_numbers()
     }
 
     /// The number of its goal.
     pub(crate) fn goal_id(&self) -> u32 {
-        self.nodes.len() as u32 + 1
+        self.node_numbers() + 1
     }
 }
 
@@ -99,7 +99,7 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
             self.observer.expanded(NodeEvent { at: node.at(), parent, g, f });
             self.observer.reached(node.at(), g);
             self.cross_cluster(id, Endpoint { cluster: node.cluster, costs: level.costs_from(id) }, g);
-            self.cross_border(id, node.at(), g);
+            self.cross_border(id, node, g);
             if let Some(Goal { endpoint, .. }) = goal.filter(|goal| goal.endpoint.cluster == node.cluster) {
                 let index = (id - level.first_node(node.cluster)) as usize;
                 if let Some(rest) = endpoint.costs[index].cost()
@@ -125,17 +125,17 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
             let g = g + cost;
             if self.tree.cost(other).is_none_or(|known| g < known) {
                 self.tree.set_path(other, g, id, ());
-                self.cross_border(other, node.at(), g);
+                self.cross_border(other, node, g);
             }
         }
     }
 
     /// Generates the nodes across the border from a node.
     #[inline]
-    fn cross_border(&mut self, id: u32, from: Vertex, g: Cost) {
+    fn cross_border(&mut self, id: u32, from: &Node, g: Cost) {
         const STEP: Cost = Cost::from_bits(1 << Cost::FRACTION_BITS);
         let level = self.level;
-        for other in level.node(id).across() {
+        for other in from.across() {
             let at = level.node(other).at();
             let g = g + STEP;
             if !self.bounds.contains(at) || self.tree.cost(other).is_some_and(|known| known <= g) {
@@ -144,7 +144,7 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
             let h = (self.estimate)(at);
             let (is_first, swaps) = self.tree.set_path_and_open(other, g, h, id, ());
             self.observer.percolated(swaps);
-            let event = NodeEvent { at, parent: Some(from), g, f: g + h };
+            let event = NodeEvent { at, parent: Some(from.at()), g, f: g + h };
             if is_first {
                 self.observer.generated(event);
             } else {
