@@ -103,7 +103,6 @@ impl BitSearch {
     }
 
     /// Finds the costs from one cell to others, each a set of its own. Those that are not reached keep theirs.
-    #[inline(never)]
     pub(crate) fn find(&mut self, cells: &BitCells, from: Cells, to: &[Cells], costs: &mut [FixedCost]) {
         let Self { axial, diagonal, queues: [by_axial, by_diagonal] } = self;
         by_axial.clear();

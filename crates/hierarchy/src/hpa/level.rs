@@ -49,6 +49,15 @@ pub(crate) struct Cluster {
     pub(crate) costs: Arc<[FixedCost]>,
 }
 
+impl Cluster {
+    /// The costs from one of its nodes to each.
+    #[inline]
+    pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
+        let (count, index) = (self.count as usize, (id - self.first) as usize);
+        &self.costs[index * count..(index + 1) * count]
+    }
+}
+
 /// Nodes with successive numbers. Versions of a level share the blocks in which nothing changed.
 type NodeBlock = [Node; NODES];
 /// Clusters with successive numbers.
@@ -301,7 +310,13 @@ impl Level {
     /// The nodes of a cluster, in the order of their numbers.
     #[inline]
     pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
-        nodes_of(&self.nodes, self.cluster(cluster))
+        self.nodes_in(self.cluster(cluster))
+    }
+
+    /// The nodes of one of its clusters, in the order of their numbers.
+    #[inline]
+    pub(crate) fn nodes_in(&self, cluster: &Cluster) -> &[Node] {
+        nodes_of(&self.nodes, cluster)
     }
 
     /// The number of the first node of a cluster.
@@ -324,9 +339,7 @@ impl Level {
     /// The costs from a node to each node of its cluster.
     #[inline]
     pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
-        let Cluster { first, count, costs } = self.cluster(self.node(id).cluster);
-        let (count, index) = (*count as usize, (id - first) as usize);
-        &costs[index * count..(index + 1) * count]
+        self.cluster(self.node(id).cluster).costs_from(id)
     }
 
     /// The memory that it uses, in bytes.
