@@ -167,7 +167,7 @@ impl ClusterGraph {
         self.levels[0].clusters().map(|cluster| cluster.count as usize).sum()
     }
 
-    /// The most numbers of nodes of a level.
+    /// The most numbers of nodes of a level. It is the same in all versions of a map.
     pub(super) fn most_nodes(&self) -> usize {
         self.levels.iter().map(|level| level.node_numbers() as usize).max().unwrap_or(0)
     }

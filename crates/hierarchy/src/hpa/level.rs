@@ -345,8 +345,10 @@ impl Level {
     /// The memory that it uses, in bytes.
     pub(crate) fn memory_bytes(&self) -> usize {
         // Blocks without nodes are one and the same.
-        let is_used = |block: &&Arc<NodeBlock>| block.iter().any(|node| *node != Node::UNUSED);
-        self.nodes.iter().filter(is_used).map(|block| size_of_val(&**block)).sum::<usize>()
+        let with_nodes = self.clusters().filter(|cluster| cluster.count > 0);
+        let mut used: Vec<usize> = with_nodes.map(|cluster| cluster.first as usize / NODES).collect();
+        used.dedup();
+        used.len() * size_of::<NodeBlock>()
             + self.clusters.iter().map(|block| size_of_val(&**block)).sum::<usize>()
             + self.clusters().map(|cluster| size_of_val(&*cluster.costs)).sum::<usize>()
     }
