@@ -105,9 +105,9 @@ impl SegmentGraph {
         self.columns as usize * self.rows as usize
     }
 
-    /// Repairs the index after a change. The index is then equal to a new one of the map
-    /// after it, its identity included. The edges of which a window has a cell that the change alters are made
-    /// anew; the work follows their number, whatever the size of the map.
+    /// Repairs the index after a change. The index is then equal to a new one of the map after it, its
+    /// identity included. Edges are made anew where a window has a cell that the change alters; the work
+    /// follows their number, whatever the size of the map.
     ///
     /// # Errors
     /// [`HierarchyError::Mismatch`] if the map before the change is not that of the index. Nothing is changed

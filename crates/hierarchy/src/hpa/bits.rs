@@ -102,7 +102,8 @@ impl BitSearch {
         }
     }
 
-    /// Finds the costs from one cell to others, each a set of its own. Those that are not reached keep theirs.
+    /// Finds the costs from one cell to others, each a set of its own. Those of cells that are not reached
+    /// stay as they are.
     pub(crate) fn find(&mut self, cells: &BitCells, from: Cells, to: &[Cells], costs: &mut [FixedCost]) {
         let Self { axial, diagonal, queues: [by_axial, by_diagonal] } = self;
         by_axial.clear();

@@ -92,8 +92,8 @@ struct PathNode {
 }
 
 impl HpaStar<(), ()> {
-    /// The scratch memory that a planner on this graph takes when it is made, in bytes. The size of the map and
-    /// the clustering decide it, so that it is the same after a repair.
+    /// The scratch memory that a planner on this graph takes when it is made, in bytes. The size of the map
+    /// and the clustering decide it, so that it is the same after a repair.
     #[must_use]
     pub fn scratch_bytes(index: &ClusterGraph) -> usize {
         SearchTree::<()>::bytes(index.most_nodes() + 2)
