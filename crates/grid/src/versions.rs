@@ -62,7 +62,7 @@ pub struct VersionEdit<W> {
 /// The most edits that a spare is brought up to date by.
 const MOST_EDITS: usize = 64;
 
-impl<W: Copy + PartialEq> Versioned<W> {
+impl<W: Clone + PartialEq> Versioned<W> {
     /// Begins an edit. This version stays as it is.
     #[must_use]
     pub fn edit(&self) -> VersionEdit<W> {
@@ -88,7 +88,7 @@ impl<W> Versioned<W> {
     }
 }
 
-impl<W: Copy + PartialEq> VersionEdit<W> {
+impl<W: Clone + PartialEq> VersionEdit<W> {
     /// The words as they are now.
     #[must_use]
     #[inline]
@@ -103,6 +103,16 @@ impl<W: Copy + PartialEq> VersionEdit<W> {
             self.words[at] = word;
             self.changed.push(at as u32);
         }
+    }
+
+    /// A word, to be changed in place: it counts as changed.
+    #[must_use]
+    #[inline]
+    pub fn word_mut(&mut self, at: usize) -> &mut W {
+        if self.changed.last() != Some(&(at as u32)) {
+            self.changed.push(at as u32);
+        }
+        &mut self.words[at]
     }
 
     /// Whether any word was changed.
@@ -156,7 +166,7 @@ impl<W> Shared<W> {
     }
 }
 
-impl<W: Copy> Shared<W> {
+impl<W: Clone> Shared<W> {
     /// The words of the spare, made those of a version; `None` if there is no spare.
     fn spare_like(&mut self, version: &Versioned<W>) -> Option<Box<[W]>> {
         let (mut one, mut words) = self.spare.take()?;
@@ -165,11 +175,11 @@ impl<W: Copy> Shared<W> {
         while one != other {
             let later = one.max(other);
             let Some(&Made { from, changed: Some(ref changed), .. }) = self.made(later) else {
-                words.copy_from_slice(&version.words);
+                words.clone_from_slice(&version.words);
                 return Some(words);
             };
             for &at in changed {
-                words[at as usize] = version.words[at as usize];
+                words[at as usize].clone_from(&version.words[at as usize]);
             }
             if one == later {
                 one = from;
@@ -219,7 +229,7 @@ impl<W> Default for Versioned<W> {
 }
 
 /// A copy, which has no earlier versions.
-impl<W: Copy> Clone for Versioned<W> {
+impl<W: Clone> Clone for Versioned<W> {
     fn clone(&self) -> Self {
         self.words.to_vec().into()
     }
@@ -269,7 +279,11 @@ mod tests {
             let most = [3, 3, 3, 80, 300][random(5)];
             for _ in 0..random(most) {
                 let (at, word) = (random(200), random(7) as u32);
-                edit.set(at, word);
+                if random(2) == 0 {
+                    edit.set(at, word);
+                } else {
+                    *edit.word_mut(at) = word;
+                }
                 words[at] = word;
             }
             let next = edit.finish();

@@ -61,6 +61,7 @@ mod error;
 mod hpa;
 #[cfg(doctest)]
 mod readme;
+mod touched;
 mod waypoints;
 mod window;
 

@@ -1,8 +1,6 @@
 //! Small rectangles of a map, as rows of bits.
 
-use std::ops::Range;
-
-use mediant_grid::{Grid, Rectangle, Vertex};
+use mediant_grid::{Grid, Vertex};
 
 /// The longest side of a window: each of its rows is one word.
 pub(crate) const MAX_SIDE: u32 = 64;
@@ -98,12 +96,4 @@ pub(crate) const fn contains(rows: &Rows, cell: u32) -> bool {
 #[inline]
 pub(crate) const fn insert(rows: &mut Rows, cell: u32) {
     rows[(cell / MAX_SIDE) as usize] |= 1 << (cell % MAX_SIDE);
-}
-
-/// The columns and rows of the part of a rectangle that is on a map of this size; `None` if no cell is.
-pub(crate) fn on_map(rectangle: Rectangle, (width, height): (u32, u32)) -> Option<[Range<u32>; 2]> {
-    let span = |first: u32, length: u32, cells: u32| first..first.saturating_add(length).min(cells);
-    let columns = span(rectangle.x, rectangle.width, width);
-    let rows = span(rectangle.y, rectangle.height, height);
-    (!columns.is_empty() && !rows.is_empty()).then_some([columns, rows])
 }

@@ -43,7 +43,7 @@ impl SegmentGraph {
         if edges.iter().zip(positions).any(|(edges, (x, y))| edges & !graph.possible_edges(x, y) != 0) {
             return Err(HierarchyError::Bytes("an edge leads to no segment"));
         }
-        graph.edges = edges.into();
+        graph.edges = edges.to_vec().into();
         Ok(graph)
     }
 }

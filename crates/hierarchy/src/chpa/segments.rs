@@ -1,13 +1,15 @@
 //! The index of CHPA*: made by sliding windows over the map, and repaired where the map changed.
 
-use std::collections::BTreeSet;
-
-use mediant_grid::{Centers, Change, Grid, GridGraph, Identity, Interrupt, Vector, Vertex};
+use mediant_grid::{
+    Centers, Change, Grid, GridGraph, Identity, Interrupt, Interrupted, Vector, VersionEdit, Versioned,
+    Vertex, uninterrupted,
+};
 use mediant_moves::FiniteK;
 
 use crate::{
     HierarchyError, check,
-    window::{MAX_SIDE, Rows, Window, low_bits, on_map},
+    touched::{Squares, touched},
+    window::{MAX_SIDE, Rows, Window, low_bits},
 };
 
 /// The stage that an interrupted call names.
@@ -46,7 +48,7 @@ pub struct SegmentGraph {
     pub(crate) size: (u32, u32),
     pub(crate) columns: u32,
     pub(crate) rows: u32,
-    pub(crate) edges: Box<[u8]>,
+    pub(crate) edges: Versioned<u8>,
 }
 
 impl SegmentGraph {
@@ -74,13 +76,14 @@ impl SegmentGraph {
         interrupt: &Interrupt,
     ) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_edges(grid_graph, side)?;
-        graph.edges = vec![0; graph.segments_of_map()].into_boxed_slice();
+        let mut edges = Vec::with_capacity(graph.segments_of_map());
         for y in 0..graph.rows {
             for x in 0..graph.columns {
                 interrupt.check_every(SEGMENTS, x as usize, DURING)?;
-                graph.edges[(y * graph.columns + x) as usize] = graph.edges_of(grid_graph.grid(), x, y);
+                edges.push(graph.edges_of(grid_graph.grid(), x, y));
             }
         }
+        graph.edges = edges.into();
         Ok(graph)
     }
 
@@ -94,7 +97,7 @@ impl SegmentGraph {
         let (columns, rows) = (size.0.div_ceil(side), size.1.div_ceil(side));
         check::address_space(u64::from(columns) * u64::from(rows))?;
         let (identity, k) = (grid_graph.identity(), grid_graph.k());
-        Ok(Self { identity, k, side, size, columns, rows, edges: Box::default() })
+        Ok(Self { identity, k, side, size, columns, rows, edges: Versioned::default() })
     }
 
     /// The number of segments that the map is cut into.
@@ -102,48 +105,48 @@ impl SegmentGraph {
         self.columns as usize * self.rows as usize
     }
 
-    /// Repairs the index after a change. The index is then equal to a new one of the map
-    /// after it, its identity included. The edges whose windows touch the change are made anew.
+    /// Repairs the index after a change. The index is then equal to a new one of the map after it, its
+    /// identity included. Edges are made anew where a window has a cell that the change alters; the work
+    /// follows their number, whatever the size of the map.
     ///
     /// # Errors
     /// [`HierarchyError::Mismatch`] if the map before the change is not that of the index. Nothing is changed
     /// then.
     pub fn repair(&mut self, change: &Change) -> Result<(), HierarchyError> {
-        self.repair_in_place(change, &Interrupt::NEVER)
+        check::change(self.identity, change)?;
+        let edges = std::mem::take(&mut self.edges).into_edit();
+        self.edges = uninterrupted(|never| self.repaired_edges(edges, change, never));
+        self.identity.map = Some(change.after().id());
+        Ok(())
     }
 
-    /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
+    /// The index [repaired](Self::repair), as another one; this one stays as it is. The edges that did not
+    /// change are not copied if a version before this one was given up: its memory is used again. An
+    /// interrupt can stop it.
     ///
     /// # Errors
     /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
     pub fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, HierarchyError> {
-        let mut copy = self.clone();
-        copy.repair_in_place(change, interrupt)?;
-        Ok(copy)
+        check::change(self.identity, change)?;
+        let edges = self.repaired_edges(self.edges.edit(), change, interrupt)?;
+        let identity = Identity { map: Some(change.after().id()), ..self.identity };
+        Ok(Self { identity, edges, ..*self })
     }
 
-    /// Once it is interrupted, the index is that of neither map.
-    fn repair_in_place(&mut self, change: &Change, interrupt: &Interrupt) -> Result<(), HierarchyError> {
-        check::change(self.identity, change)?;
+    fn repaired_edges(
+        &self,
+        mut edges: VersionEdit<u8>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Versioned<u8>, Interrupted> {
         // The windows of a segment reach one cell beyond it to the left, to the right, and downward.
-        let side = self.side;
-        let first = |cell: u32| cell.saturating_sub(1) / side;
-        let touched = change.cells().iter().filter_map(|&at| on_map(at, self.size));
-        let dirty: BTreeSet<u32> = touched
-            .flat_map(|[columns, rows]| {
-                let all = self.columns;
-                let columns = first(columns.start)..((columns.end + 1).div_ceil(side)).min(all);
-                let rows = first(rows.start)..rows.end.div_ceil(side);
-                rows.flat_map(move |y| columns.clone().map(move |x| y * all + x))
-            })
-            .collect();
-        for (number, segment) in dirty.into_iter().enumerate() {
+        let segments = Squares { side: self.side, beside: 1, above: 0, below: 1 };
+        for (number, segment) in touched(change, segments, (interrupt, DURING))?.into_iter().enumerate() {
             interrupt.check_every(SEGMENTS, number, DURING)?;
             let (x, y) = (segment % self.columns, segment / self.columns);
-            self.edges[segment as usize] = self.edges_of(change.after(), x, y);
+            edges.set(segment as usize, self.edges_of(change.after(), x, y));
         }
-        self.identity.map = Some(change.after().id());
-        Ok(())
+        Ok(edges.finish())
     }
 
     /// The identity of its grid graph: map, rules of motion and k.

@@ -1,16 +1,17 @@
 //! Making the abstract graph, wholly or where the map changed (Botea 2004, Sections 3.1 and 3.2).
 
+use std::sync::Arc;
+
 use mediant_grid::{BitMatrix, Grid, Interrupt, Interrupted, Vertex};
-use mediant_moves::Cost;
-use mediant_search::parts::SearchTree;
+use mediant_moves::{CostTable, FiniteK};
 
 use super::{
     DURING,
+    bits::{BitCells, BitSearch},
     cluster_search::ClusterSearch,
     fixed_cost::FixedCost,
-    graph::ClusterGraph,
-    level::{Bounds, Level, NONE},
-    search::{Endpoint, search},
+    join::Part,
+    level::{Bounds, Level, LevelEdit, NONE, Node, Shape},
 };
 use crate::window::{low_bits, rows_of};
 
@@ -21,152 +22,218 @@ const WIDE: u32 = 6;
 /// The clusters whose nodes are made between two questions of an interrupt.
 const CLUSTERS: usize = 64;
 
-impl ClusterGraph {
-    /// Makes the nodes of all levels, without the costs between them.
-    pub(crate) fn add_nodes(&mut self, grid: &Grid, interrupt: &Interrupt) -> Result<(), Interrupted> {
-        for number in 0..self.levels.len() {
-            let all = (0..self.levels[number].clusters.len() as u32).collect();
-            self.rebuild_nodes(grid, number, all, interrupt)?;
-        }
-        Ok(())
+/// Levels are made of these.
+pub(crate) struct Builder<'b> {
+    pub(crate) grid: &'b Grid,
+    pub(crate) k: FiniteK,
+    /// The costs of paths on an empty grid.
+    pub(crate) costs: &'b CostTable,
+    pub(crate) interrupt: &'b Interrupt,
+}
+
+/// Clusters of a level, in ascending order, of which something is to be made anew.
+pub(crate) struct Dirty {
+    /// The clusters whose nodes may change.
+    pub(crate) nodes: Vec<u32>,
+    /// The clusters in which costs may change, even if the nodes stay.
+    pub(crate) costs: Vec<u32>,
+}
+
+impl Dirty {
+    /// All clusters of a level.
+    pub(crate) fn all(level: &Shape) -> Self {
+        let all: Vec<u32> = (0..level.count()).collect();
+        Self { nodes: all.clone(), costs: all }
     }
 
-    /// Rebuilds these clusters of the lowest level, in ascending order, and all that depends on them.
-    ///
-    /// If it is interrupted, the graph is that of neither map.
-    pub(crate) fn rebuild(
-        &mut self,
-        grid: &Grid,
-        mut dirty: Vec<u32>,
-        interrupt: &Interrupt,
-    ) -> Result<(), Interrupted> {
-        for number in 0..self.levels.len() {
-            dirty = self.rebuild_nodes(grid, number, dirty, interrupt)?;
-            if number == 0 {
-                self.find_lowest_costs(grid, &dirty, interrupt)?;
-            } else {
-                self.find_upper_costs(grid, number, &dirty, interrupt)?;
-            }
-            if let Some(upper) = self.levels.get(number + 1) {
-                let level = &self.levels[number];
-                let parents = dirty.iter().map(|&id| parent(level, upper, id));
-                dirty = parents.collect();
-                dirty.sort_unstable();
-                dirty.dedup();
-            }
-        }
-        Ok(())
-    }
-
-    /// Rebuilds the nodes of a level in the dirty clusters, and in their neighbors, whose entrances may have
-    /// changed with them. Returns the clusters whose costs must be found again: the dirty ones, and the
-    /// neighbors whose nodes changed.
-    fn rebuild_nodes(
-        &mut self,
-        grid: &Grid,
-        number: usize,
-        mut dirty: Vec<u32>,
-        interrupt: &Interrupt,
-    ) -> Result<Vec<u32>, Interrupted> {
-        let (below, rest) = self.levels.split_at_mut(number);
-        let level = &mut rest[0];
-        let mut cells = Vec::new();
-        let mut neighbors: Vec<u32> = dirty.iter().flat_map(|&id| level.neighbors(id)).collect();
-        neighbors.sort_unstable();
-        neighbors.dedup();
-        neighbors.retain(|id| dirty.binary_search(id).is_err());
-        let mut rebuild = |level: &mut Level, id: u32| {
-            cells.clear();
-            match below.last() {
-                None => lowest_cells(level, grid, id, &mut cells),
-                Some(below) => upper_cells(level, below, grid, id, &mut cells),
-            }
-            level.set_nodes(id, &cells)
-        };
-        for (number, &id) in dirty.iter().enumerate() {
-            interrupt.check_every(CLUSTERS, number, DURING)?;
-            rebuild(level, id);
-        }
-        neighbors.retain(|&id| rebuild(level, id));
-        dirty.append(&mut neighbors);
-        dirty.sort_unstable();
-        let mut to_join: Vec<u32> = dirty.iter().flat_map(|&id| level.neighbors(id).chain([id])).collect();
-        to_join.sort_unstable();
-        to_join.dedup();
-        for (number, id) in to_join.into_iter().enumerate() {
-            interrupt.check_every(CLUSTERS, number, DURING)?;
-            level.join_across(id);
-        }
-        Ok(dirty)
-    }
-
-    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
-    /// of each.
-    fn find_lowest_costs(
-        &mut self,
-        grid: &Grid,
-        clusters: &[u32],
-        interrupt: &Interrupt,
-    ) -> Result<(), Interrupted> {
-        let mut cluster_search = ClusterSearch::new(self.k);
-        let level = &mut self.levels[0];
-        for &id in clusters {
-            let window = level.bounds(id, grid).window(grid);
-            let cells: Vec<u32> = level.nodes_of(id).iter().map(|node| window.cell(node.at())).collect();
-            let count = cells.len();
-            let mut costs = vec![FixedCost::ZERO; count * count];
-            for (from, &cell) in cells.iter().enumerate() {
-                interrupt.check(DURING)?;
-                let targets = &cells[from + 1..];
-                cluster_search.flood(&self.costs, &window, cell, &rows_of(targets), &mut ());
-                for (to, &target) in targets.iter().enumerate() {
-                    let cost = FixedCost::new(cluster_search.cost(target));
-                    costs[from * count + from + 1 + to] = cost;
-                    costs[(from + 1 + to) * count + from] = cost;
-                }
-            }
-            level.clusters[id as usize].costs = costs.into();
-        }
-        Ok(())
-    }
-
-    /// Finds the costs between the nodes of clusters of an upper level: Dijkstra's algorithm over the nodes
-    /// of the level below.
-    fn find_upper_costs(
-        &mut self,
-        grid: &Grid,
-        number: usize,
-        clusters: &[u32],
-        interrupt: &Interrupt,
-    ) -> Result<(), Interrupted> {
-        let (below, rest) = self.levels.split_at_mut(number);
-        let (Some(below), Some(level)) = (below.last(), rest.first_mut()) else { return Ok(()) };
-        let mut tree = SearchTree::new(below.nodes.len() + 2);
-        for &id in clusters {
-            let bounds = level.bounds(id, grid);
-            let nodes: Vec<u32> = level.nodes_of(id).iter().map(|node| node.below).collect();
-            let mut costs = Vec::with_capacity(nodes.len() * nodes.len());
-            for &from in &nodes {
-                interrupt.check(DURING)?;
-                let start = Endpoint { cluster: below.node(from).cluster, costs: below.costs_from(from) };
-                search(below, bounds, &mut tree, |_| Cost::ZERO, start, None, &mut ());
-                costs.extend(nodes.iter().map(|&to| FixedCost::new(tree.cost(to))));
-            }
-            level.clusters[id as usize].costs = costs.into();
-        }
-        Ok(())
+    /// The clusters of the next level that depend on what changed in the one below: an upper cluster's nodes
+    /// are those below from which a step leads out of it, its costs come from those of its parts.
+    fn above(level: &Shape, below: &Shape, changed: &Self) -> Self {
+        let nodes = level.parents(below, &below.with_neighbors(&changed.nodes));
+        Self { nodes, costs: level.parents(below, &changed.costs) }
     }
 }
 
-/// The cluster of the next level that contains a cluster.
-fn parent(level: &Level, upper: &Level, id: u32) -> u32 {
-    let factor = upper.side / level.side;
-    id / level.columns / factor * upper.columns + id % level.columns / factor
+impl Builder<'_> {
+    /// Rebuilds what is dirty on the lowest level, and all that depends on it. A level of which nothing
+    /// changes is the one that was handed in.
+    pub(crate) fn rebuild(
+        &self,
+        levels: impl IntoIterator<Item = Arc<Level>>,
+        mut dirty: Dirty,
+    ) -> Result<Box<[Arc<Level>]>, Interrupted> {
+        let mut rebuilt: Vec<Arc<Level>> = Vec::new();
+        for level in levels {
+            let below = rebuilt.last();
+            if let Some(below) = below {
+                dirty = Dirty::above(&level, below, &dirty);
+            }
+            if dirty.nodes.is_empty() && dirty.costs.is_empty() {
+                rebuilt.push(level);
+                continue;
+            }
+            let mut edit = level.edit();
+            let nodes = self.rebuild_nodes(&mut edit, below, &dirty.nodes)?;
+            let mut costs = union(&dirty.costs, &nodes);
+            match below {
+                None => self.find_lowest_costs(&mut edit, &mut costs)?,
+                Some(below) => self.find_upper_costs(&mut edit, below, &mut costs)?,
+            }
+            dirty = Dirty { costs: union(&costs, &nodes), nodes };
+            rebuilt.push(Arc::new(edit.finish()));
+        }
+        Ok(rebuilt.into())
+    }
+
+    /// Rebuilds the nodes of clusters. Returns the clusters whose nodes changed.
+    pub(crate) fn rebuild_nodes(
+        &self,
+        level: &mut LevelEdit,
+        below: Option<&Arc<Level>>,
+        clusters: &[u32],
+    ) -> Result<Vec<u32>, Interrupted> {
+        let (mut cells, mut changed) = (Vec::new(), Vec::new());
+        for (number, &id) in clusters.iter().enumerate() {
+            self.interrupt.check_every(CLUSTERS, number, DURING)?;
+            cells.clear();
+            match below {
+                None => lowest_cells(level, self.grid, id, &mut cells),
+                Some(below) => upper_cells(level, below, self.grid, id, &mut cells),
+            }
+            if level.set_nodes(id, &cells) {
+                changed.push(id);
+            }
+        }
+        for (number, id) in level.with_neighbors(&changed).into_iter().enumerate() {
+            self.interrupt.check_every(CLUSTERS, number, DURING)?;
+            level.join_across(id);
+        }
+        Ok(changed)
+    }
+
+    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
+    /// of each. Keeps of the clusters those in which a cost changed.
+    fn find_lowest_costs(&self, level: &mut LevelEdit, clusters: &mut Vec<u32>) -> Result<(), Interrupted> {
+        let mut search = LowestSearch::new(self);
+        let mut costs = Vec::new();
+        keep_changed(clusters, |id| {
+            search.find(level.bounds(id, self.grid), level.nodes_of(id), &mut costs)?;
+            Ok(level.set_costs(id, &costs))
+        })
+    }
+
+    /// Finds the costs between the nodes of clusters of an upper level, from those within the clusters of the
+    /// level below. Keeps of the clusters those in which a cost changed.
+    fn find_upper_costs(
+        &self,
+        level: &mut LevelEdit,
+        below: &Level,
+        clusters: &mut Vec<u32>,
+    ) -> Result<(), Interrupted> {
+        let mut costs = Vec::new();
+        keep_changed(clusters, |id| {
+            self.interrupt.check(DURING)?;
+            // All nodes of a part lead out of it, and so do those of the whole.
+            let rows = below.within(level.bounds(id, self.grid)).map(|row| {
+                let parts = row.map(|child| Part::cluster(below, child, below.bounds(child, self.grid)));
+                parts.reduce(|left, right| left.joined(&right, below))
+            });
+            let whole = rows.flatten().reduce(|upper, lower| upper.joined(&lower, below));
+            costs.clear();
+            costs.extend(whole.iter().flat_map(Part::fixed_costs));
+            Ok(level.set_costs(id, &costs))
+        })
+    }
+}
+
+/// The clusters of two lists in ascending order, as one.
+fn union(one: &[u32], other: &[u32]) -> Vec<u32> {
+    let mut both = [one, other].concat();
+    both.sort_unstable();
+    both.dedup();
+    both
+}
+
+/// Keeps those clusters for which `find` says that something changed.
+fn keep_changed(
+    clusters: &mut Vec<u32>,
+    mut find: impl FnMut(u32) -> Result<bool, Interrupted>,
+) -> Result<(), Interrupted> {
+    let mut result = Ok(());
+    clusters.retain(|&id| {
+        result.is_ok()
+            && find(id).unwrap_or_else(|error| {
+                result = Err(error);
+                false
+            })
+    });
+    result
+}
+
+/// The searches within clusters of the lowest level, with their scratch memory.
+struct LowestSearch<'b> {
+    builder: &'b Builder<'b>,
+    small: BitSearch,
+    /// Made when first needed.
+    large: Option<ClusterSearch>,
+    cells: Vec<u32>,
+    sets: Vec<u128>,
+}
+
+impl<'b> LowestSearch<'b> {
+    fn new(builder: &'b Builder<'b>) -> Self {
+        let small = BitSearch::new(builder.k);
+        Self { builder, small, large: None, cells: Vec::new(), sets: Vec::new() }
+    }
+
+    /// Writes to `costs` those from each of the nodes of a cluster to each, row by row.
+    fn find(
+        &mut self,
+        bounds: Bounds,
+        nodes: &[Node],
+        costs: &mut Vec<FixedCost>,
+    ) -> Result<(), Interrupted> {
+        let Self { builder, small, large, cells, sets } = self;
+        let &Builder { grid, k, costs: empty, interrupt } = *builder;
+        let (window, count) = (bounds.window(grid), nodes.len());
+        cells.clear();
+        cells.extend(nodes.iter().map(|node| window.cell(node.at())));
+        // On an empty window there is nothing to search.
+        let of_bits = BitCells::new(&window).filter(|_| !window.is_free());
+        if of_bits.is_some() {
+            sets.clear();
+            sets.extend(cells.iter().map(|&cell| BitCells::cell(cell)));
+        }
+        costs.clear();
+        costs.resize(count * count, FixedCost::NONE);
+        for (from, &cell) in cells.iter().enumerate() {
+            interrupt.check(DURING)?;
+            costs[from * count + from] = FixedCost::ZERO;
+            let later = &mut costs[from * count..][from + 1..count];
+            if let Some(of_bits) = &of_bits {
+                small.find(of_bits, sets[from], &sets[from + 1..], later);
+                continue;
+            }
+            let search = large.get_or_insert_with(|| ClusterSearch::new(k));
+            let targets = &cells[from + 1..];
+            search.flood(empty, &window, cell, &rows_of(targets), &mut ());
+            for (cost, &target) in later.iter_mut().zip(targets) {
+                *cost = FixedCost::new(search.cost(target));
+            }
+        }
+        // Costs hold in both directions.
+        for from in 0..count {
+            for to in 0..from {
+                costs[from * count + to] = costs[to * count + from];
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Writes to `cells` those cells of a cluster of the lowest level at which transitions end, row by row. They
 /// have no node below.
-fn lowest_cells(level: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
+fn lowest_cells(level: &Shape, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
     let Bounds { left, top, right, bottom } = level.bounds(id, grid);
     let (width, height) = ((right - left) as u32, (bottom - top) as u32);
     // Outside the map all is blocked, so that no transition leads there.
@@ -190,16 +257,13 @@ fn lowest_cells(level: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u3
 }
 
 /// Writes to `cells` those nodes of the level below from which a transition leads out of a cluster.
-fn upper_cells(level: &Level, below: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
+fn upper_cells(level: &Shape, below: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
     let bounds = level.bounds(id, grid);
-    let columns = bounds.left as u32 / below.side..(bounds.right as u32).div_ceil(below.side);
-    for y in bounds.top as u32 / below.side..(bounds.bottom as u32).div_ceil(below.side) {
-        for child in columns.clone().map(|x| y * below.columns + x) {
-            let first = below.first_node(child);
-            for (node, number) in below.nodes_of(child).iter().zip(first..) {
-                if node.across().any(|other| !bounds.contains(below.node(other).at())) {
-                    cells.push((node.at(), number));
-                }
+    for child in below.within(bounds).flatten() {
+        let first = below.first_node(child);
+        for (node, number) in below.nodes_of(child).iter().zip(first..) {
+            if node.across().any(|other| !bounds.contains(below.node(other).at())) {
+                cells.push((node.at(), number));
             }
         }
     }

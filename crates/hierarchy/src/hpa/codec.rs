@@ -5,9 +5,17 @@
 //! and row by row: the number n of its nodes, and the n(n − 1)/2 costs from each node to those after it, in
 //! units of 2⁻¹⁶ cells. The nodes themselves are not stored: they follow from the map.
 
+use std::sync::Arc;
+
 use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted, uninterrupted};
 
-use super::{DURING, clustering::Clustering, fixed_cost::FixedCost, graph::ClusterGraph, level::Cluster};
+use super::{
+    DURING,
+    clustering::Clustering,
+    fixed_cost::FixedCost,
+    graph::ClusterGraph,
+    level::{Cluster, Level},
+};
 use crate::{HierarchyError, bytes::WordReader, check};
 
 impl ClusterGraph {
@@ -29,8 +37,8 @@ impl ClusterGraph {
         let mut write = |word: u32| bytes.extend(word.to_le_bytes());
         let Clustering { side, levels } = self.clustering;
         [side, levels].into_iter().for_each(&mut write);
-        let clusters = self.levels.iter().flat_map(|level| &level.clusters);
-        for (number, Cluster { count, costs }) in clusters.enumerate() {
+        let clusters = self.levels.iter().flat_map(|level| level.clusters());
+        for (number, Cluster { count, costs, .. }) in clusters.enumerate() {
             interrupt.check_every(64, number, Interrupted::WRITING)?;
             write(*count);
             for from in 0..*count as usize {
@@ -72,16 +80,20 @@ impl ClusterGraph {
         let clusters = |side: u32| size.0.div_ceil(side) as usize * size.1.div_ceil(side) as usize;
         words.check_left(clustering.sides()?.into_iter().map(clusters).sum())?;
         let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
-        graph.add_nodes(grid_graph.grid(), interrupt)?;
-        for level in &mut graph.levels {
-            for (number, cluster) in level.clusters.iter_mut().enumerate() {
+        let mut costs = Vec::new();
+        let mut levels: Vec<Arc<Level>> = Vec::with_capacity(graph.levels.len());
+        for level in std::mem::take(&mut graph.levels) {
+            let all: Vec<u32> = (0..level.count()).collect();
+            let mut edit = level.edit();
+            graph.builder(grid_graph.grid(), interrupt).rebuild_nodes(&mut edit, levels.last(), &all)?;
+            for (number, cluster) in all.into_iter().enumerate() {
                 interrupt.check_every(64, number, DURING)?;
-                let count = words.next()?;
-                if count != cluster.count {
+                let count = words.next()? as usize;
+                if count != edit.nodes_of(cluster).len() {
                     return Err(HierarchyError::Bytes("a cluster has another number of nodes"));
                 }
-                let count = count as usize;
-                let mut costs = vec![FixedCost::ZERO; count * count];
+                costs.clear();
+                costs.resize(count * count, FixedCost::ZERO);
                 for from in 0..count {
                     for to in from + 1..count {
                         let cost = FixedCost::from_bits(words.next()?);
@@ -89,9 +101,11 @@ impl ClusterGraph {
                         costs[to * count + from] = cost;
                     }
                 }
-                cluster.costs = costs.into();
+                edit.set_costs(cluster, &costs);
             }
+            levels.push(Arc::new(edit.finish()));
         }
+        graph.levels = levels.into();
         words.end()?;
         Ok(graph)
     }

@@ -1,12 +1,20 @@
 //! The index of HPA*.
 
-use std::{collections::BTreeSet, ops::Range};
+use std::sync::Arc;
 
-use mediant_grid::{Centers, Change, GridGraph, Identity, Interrupt};
+use mediant_grid::{Centers, Change, Grid, GridGraph, Identity, Interrupt, Interrupted, uninterrupted};
 use mediant_moves::{CostTable, FiniteK};
 
-use super::{clustering::Clustering, level::Level};
-use crate::{HierarchyError, check, window::on_map};
+use super::{
+    DURING,
+    build::{Builder, Dirty},
+    clustering::Clustering,
+    level::Level,
+};
+use crate::{
+    HierarchyError, check,
+    touched::{Squares, touched},
+};
 
 /// The index of HPA*: the map in clusters, the transitions between them, and the costs of crossing each
 /// cluster from one transition to another (Botea, Müller & Schaeffer 2004, Sections 3.1 and 3.2).
@@ -25,10 +33,10 @@ pub struct ClusterGraph {
     pub(crate) identity: Identity,
     pub(crate) k: FiniteK,
     pub(crate) clustering: Clustering,
-    pub(crate) size: (u32, u32),
     /// The costs of paths on an empty grid.
     pub(crate) costs: CostTable,
-    pub(crate) levels: Box<[Level]>,
+    /// A repaired index shares with the one before the levels in which nothing changed.
+    pub(crate) levels: Box<[Arc<Level>]>,
 }
 
 impl PartialEq for ClusterGraph {
@@ -50,7 +58,8 @@ impl ClusterGraph {
         Self::interruptible(grid_graph, clustering, &Interrupt::NEVER)
     }
 
-    /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster.
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster of the lowest
+    /// level, and for each cluster of the others.
     ///
     /// # Errors
     /// As for [`new`](Self::new), and [`HierarchyError::Interrupted`].
@@ -60,8 +69,9 @@ impl ClusterGraph {
         interrupt: &Interrupt,
     ) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
-        let all = (0..graph.clusters() as u32).collect();
-        graph.rebuild(grid_graph.grid(), all, interrupt)?;
+        let levels = std::mem::take(&mut graph.levels);
+        let all = Dirty::all(&levels[0]);
+        graph.levels = graph.builder(grid_graph.grid(), interrupt).rebuild(levels, all)?;
         Ok(graph)
     }
 
@@ -73,59 +83,65 @@ impl ClusterGraph {
     ) -> Result<Self, HierarchyError> {
         check::moves(grid_graph)?;
         let (grid, sides) = (grid_graph.grid(), clustering.sides()?);
-        let level = |side| Level::new(grid, side, clustering.side, interrupt);
+        let level = |side| Level::new(grid, side, clustering.side, interrupt).map(Arc::new);
         Ok(Self {
             identity: grid_graph.identity(),
             k: grid_graph.k(),
             clustering,
-            size: (grid.width(), grid.height()),
             costs: grid_graph.costs().clone(),
             levels: sides.into_iter().map(level).collect::<Result<_, _>>()?,
         })
     }
 
+    /// Levels of the index are made with this.
+    pub(crate) const fn builder<'b>(&'b self, grid: &'b Grid, interrupt: &'b Interrupt) -> Builder<'b> {
+        Builder { grid, k: self.k, costs: &self.costs, interrupt }
+    }
+
     /// Repairs the index after a change. The index is then equal to a new one of the map after it, its
     /// identity included.
     ///
-    /// Rebuilt are the clusters that the change touches, their neighbors whose entrances changed, and the
-    /// clusters of upper levels that contain them.
+    /// Rebuilt are the clusters with cells that the change alters, their neighbors whose entrances changed,
+    /// and the clusters of upper levels above those in which a node or a cost is another one then. The work
+    /// follows these clusters, whatever the size of the map.
     ///
     /// # Errors
     /// [`HierarchyError::Mismatch`] if the map before the change is not that of the index. Nothing is changed
     /// then.
     pub fn repair(&mut self, change: &Change) -> Result<(), HierarchyError> {
-        self.repair_in_place(change, &Interrupt::NEVER)
+        check::change(self.identity, change)?;
+        // Levels that nobody else holds are changed in place.
+        let levels = std::mem::take(&mut self.levels);
+        self.levels = uninterrupted(|never| self.repaired_levels(levels, change, never));
+        self.identity.map = Some(change.after().id());
+        Ok(())
     }
 
-    /// A copy of the index, [repaired](Self::repair). An interrupt can stop it; this index stays as it is.
+    /// The index [repaired](Self::repair), as another one; this one stays as it is. What did not change
+    /// is not copied if a version before this one was given up: its memory is used again. An interrupt can
+    /// stop it.
     ///
     /// # Errors
     /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
     pub fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, HierarchyError> {
         check::change(self.identity, change)?;
-        let levels = self.levels.iter().map(|level| level.copied(interrupt));
-        let mut copy = Self { levels: levels.collect::<Result<_, _>>()?, costs: self.costs.clone(), ..*self };
-        copy.repair_in_place(change, interrupt)?;
-        Ok(copy)
+        let levels = self.repaired_levels(self.levels.clone(), change, interrupt)?;
+        let identity = Identity { map: Some(change.after().id()), ..self.identity };
+        Ok(Self { identity, costs: self.costs.clone(), levels, ..*self })
     }
 
-    /// Once it is interrupted, the index is that of neither map.
-    fn repair_in_place(&mut self, change: &Change, interrupt: &Interrupt) -> Result<(), HierarchyError> {
-        check::change(self.identity, change)?;
-        let level = &self.levels[0];
-        let clusters = |cells: Range<u32>| cells.start / level.side..cells.end.div_ceil(level.side);
-        let touched = change.cells().iter().filter_map(|&at| on_map(at, self.size));
-        let dirty: BTreeSet<u32> = touched
-            .flat_map(|[columns, rows]| {
-                let columns = clusters(columns);
-                clusters(rows).flat_map(move |y| columns.clone().map(move |x| y * level.columns + x))
-            })
-            .collect();
-        if !dirty.is_empty() {
-            self.rebuild(change.after(), dirty.into_iter().collect(), interrupt)?;
-        }
-        self.identity.map = Some(change.after().id());
-        Ok(())
+    fn repaired_levels(
+        &self,
+        levels: Box<[Arc<Level>]>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Box<[Arc<Level>]>, Interrupted> {
+        // The transitions of a cluster depend on the cells along its borders, on either side.
+        let side = self.clustering.side;
+        let [costs, nodes] = [0, 1].map(|reach| Squares { side, beside: reach, above: reach, below: reach });
+        let touched = |squares| touched(change, squares, (interrupt, DURING));
+        let dirty = Dirty { nodes: touched(nodes)?, costs: touched(costs)? };
+        self.builder(change.after(), interrupt).rebuild(levels, dirty)
     }
 
     /// The identity of its grid graph: map, rules of motion and k.
@@ -143,30 +159,23 @@ impl ClusterGraph {
     /// The number of clusters of the lowest level.
     #[must_use]
     pub fn clusters(&self) -> usize {
-        self.levels[0].clusters.len()
+        self.levels[0].count() as usize
     }
 
     /// The number of nodes of the lowest level: the cells at which transitions end.
     #[must_use]
     pub fn nodes(&self) -> usize {
-        self.levels[0].clusters.iter().map(|cluster| cluster.count as usize).sum()
+        self.levels[0].clusters().map(|cluster| cluster.count as usize).sum()
     }
 
-    /// The most numbers of nodes of a level.
+    /// The most numbers of nodes of a level. It is the same in all versions of a map.
     pub(super) fn most_nodes(&self) -> usize {
-        self.levels.iter().map(|level| level.nodes.len()).max().unwrap_or(0)
+        self.levels.iter().map(|level| level.node_numbers() as usize).max().unwrap_or(0)
     }
 
     /// The memory that the index uses, in bytes.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.levels
-            .iter()
-            .map(|level| {
-                size_of_val(&*level.nodes)
-                    + size_of_val(&*level.clusters)
-                    + level.clusters.iter().map(|cluster| size_of_val(&*cluster.costs)).sum::<usize>()
-            })
-            .sum()
+        self.levels.iter().map(|level| level.memory_bytes()).sum()
     }
 }

@@ -1,10 +1,10 @@
 //! One level of the abstract graph: clusters, their nodes, and the costs between these.
 
-use std::sync::Arc;
+use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Grid, Interrupt, Interrupted, Vertex};
+use mediant_grid::{Grid, Interrupt, VersionEdit, Versioned, Vertex};
 
-use super::fixed_cost::FixedCost;
+use super::{clustering::Clustering, fixed_cost::FixedCost};
 use crate::{HierarchyError, check, window::Window};
 
 /// No node.
@@ -39,27 +39,60 @@ impl Node {
     }
 }
 
-/// A cluster: the number of its nodes, and the costs from each to each within it, row by row. A repaired
+/// A cluster: the numbers of its nodes, and the costs from each to each within it, row by row. A repaired
 /// index shares with the one before what did not change.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Cluster {
+    /// The number of its first node.
+    pub(crate) first: u32,
     pub(crate) count: u32,
     pub(crate) costs: Arc<[FixedCost]>,
 }
 
-/// A level: the map cut into clusters of `side` × `side` cells; those at the right and lower edge may be
+impl Cluster {
+    /// The costs from one of its nodes to each.
+    #[inline]
+    pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
+        let (count, index) = (self.count as usize, (id - self.first) as usize);
+        &self.costs[index * count..(index + 1) * count]
+    }
+}
+
+/// Nodes with successive numbers. Versions of a level share the blocks in which nothing changed.
+type NodeBlock = [Node; NODES];
+/// Clusters with successive numbers.
+type ClusterBlock = [Cluster; CLUSTERS];
+
+/// A cluster has at most so many nodes: all cells along the sides of the largest.
+const NODES: usize = 4 * Clustering::MAX_SIDE as usize;
+const CLUSTERS: usize = 32;
+
+/// How a level cuts the map into clusters of `side` × `side` cells; those at the right and lower edge may be
 /// smaller.
 ///
 /// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
-/// nodes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Level {
+/// nodes. They are in one block of nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
     pub(crate) side: u32,
     pub(crate) columns: u32,
     pub(crate) rows: u32,
     stride: u32,
-    pub(crate) nodes: Box<[Node]>,
-    pub(crate) clusters: Box<[Cluster]>,
+}
+
+/// A level. The next version is made in a [`LevelEdit`].
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Level {
+    shape: Shape,
+    nodes: Versioned<Arc<NodeBlock>>,
+    clusters: Versioned<Arc<ClusterBlock>>,
+}
+
+/// The next version of a level while it is made.
+pub(crate) struct LevelEdit {
+    shape: Shape,
+    nodes: VersionEdit<Arc<NodeBlock>>,
+    clusters: VersionEdit<Arc<ClusterBlock>>,
 }
 
 /// A rectangle of cells, without column `right` and row `bottom`.
@@ -80,6 +113,16 @@ impl Bounds {
         at.x >= self.left && at.x < self.right && at.y >= self.top && at.y < self.bottom
     }
 
+    /// The smallest bounds around two.
+    pub(crate) fn around(self, other: Self) -> Self {
+        Self {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
+
     /// The window of these cells, which must be those of a cluster of the lowest level.
     pub(crate) fn window(self, grid: &Grid) -> Window {
         let Self { left, top, right, bottom } = self;
@@ -87,67 +130,37 @@ impl Bounds {
     }
 }
 
-/// The values that are written between two questions of an interrupt.
-const PIECE: usize = 1 << 16;
+/// The blocks that are made between two questions of an interrupt.
+const PIECE: usize = 1 << 10;
 
-/// The same values again.
-fn copied<T: Clone>(values: &[T], interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
-    let mut copy = Vec::with_capacity(values.len());
-    for piece in values.chunks(PIECE) {
-        interrupt.check(super::DURING)?;
-        copy.extend_from_slice(piece);
-    }
-    Ok(copy)
+/// A block of the next version, to be changed. It is copied if another version has it.
+fn block_mut<T: Clone + PartialEq>(edit: &mut VersionEdit<Arc<T>>, number: usize) -> &mut T {
+    Arc::make_mut(edit.word_mut(number))
 }
 
-/// So many copies of a value: those of a large map are gigabytes.
-fn filled<T: Clone>(value: &T, count: usize, interrupt: &Interrupt) -> Result<Vec<T>, Interrupted> {
-    let mut values = Vec::with_capacity(count);
-    while values.len() < count {
-        interrupt.check(super::DURING)?;
-        values.resize(count.min(values.len() + PIECE), value.clone());
-    }
-    Ok(values)
+/// One of the clusters of these blocks.
+#[inline]
+fn cluster(blocks: &[Arc<ClusterBlock>], id: u32) -> &Cluster {
+    &blocks[id as usize / CLUSTERS][id as usize % CLUSTERS]
 }
 
-impl Level {
-    /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
-    ///
-    /// # Errors
-    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed, [`HierarchyError::Interrupted`].
-    pub(crate) fn new(
-        grid: &Grid,
-        side: u32,
-        lowest_side: u32,
-        interrupt: &Interrupt,
-    ) -> Result<Self, HierarchyError> {
-        let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
-        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
-        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
-        // end another transition.
-        let half = lowest_side.div_ceil(2);
-        let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
-        let stride = 4 * (side / lowest_side) * on_border;
-        let count = columns * rows;
-        let nodes = u64::from(count) * u64::from(stride);
-        check::address_space(nodes)?;
-        Ok(Self {
-            side,
-            columns,
-            rows,
-            stride,
-            nodes: filled(&Node::UNUSED, nodes as usize, interrupt)?.into_boxed_slice(),
-            clusters: filled(&Cluster::default(), count as usize, interrupt)?.into_boxed_slice(),
-        })
-    }
+/// One of the nodes of these blocks.
+#[inline]
+fn node(blocks: &[Arc<NodeBlock>], id: u32) -> &Node {
+    &blocks[id as usize / NODES][id as usize % NODES]
+}
 
-    /// A copy.
-    pub(crate) fn copied(&self, interrupt: &Interrupt) -> Result<Self, Interrupted> {
-        Ok(Self {
-            nodes: copied(&self.nodes, interrupt)?.into_boxed_slice(),
-            clusters: copied(&self.clusters, interrupt)?.into_boxed_slice(),
-            ..*self
-        })
+/// The nodes of a cluster, in the order of their numbers.
+#[inline]
+fn nodes_of<'b>(blocks: &'b [Arc<NodeBlock>], cluster: &Cluster) -> &'b [Node] {
+    let first = cluster.first as usize;
+    &blocks[first / NODES][first % NODES..][..cluster.count as usize]
+}
+
+impl Shape {
+    /// The number of clusters.
+    pub(crate) const fn count(&self) -> u32 {
+        self.columns * self.rows
     }
 
     /// The cluster of a vertex.
@@ -173,7 +186,7 @@ impl Level {
     }
 
     /// The neighbors of a cluster: left, right, above, below.
-    pub(crate) fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
+    fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
         let (x, y) = (cluster % self.columns, cluster / self.columns);
         let beside = [(x > 0, cluster.wrapping_sub(1)), (x + 1 < self.columns, cluster + 1)];
         let above_and_below =
@@ -181,37 +194,194 @@ impl Level {
         beside.into_iter().chain(above_and_below).filter_map(|(exists, id)| exists.then_some(id))
     }
 
+    /// The clusters within these bounds, row by row.
+    pub(crate) fn within(
+        &self,
+        bounds: Bounds,
+    ) -> impl Iterator<Item = impl Iterator<Item = u32> + use<>> + use<> {
+        let span = |first: i32, end: i32| first as u32 / self.side..(end as u32).div_ceil(self.side);
+        let (columns, all) = (span(bounds.left, bounds.right), self.columns);
+        span(bounds.top, bounds.bottom).map(move |y| columns.clone().map(move |x| y * all + x))
+    }
+
+    /// These clusters and their neighbors, in ascending order.
+    pub(crate) fn with_neighbors(&self, clusters: &[u32]) -> Vec<u32> {
+        if clusters.len() == self.count() as usize {
+            return clusters.to_vec();
+        }
+        ascending(clusters.iter().flat_map(|&id| self.neighbors(id).chain([id])))
+    }
+
+    /// The clusters of this level that contain these of the level below, in ascending order.
+    pub(crate) fn parents(&self, below: &Self, clusters: &[u32]) -> Vec<u32> {
+        let factor = self.side / below.side;
+        ascending(clusters.iter().map(|&id| {
+            let (x, y) = (id % below.columns, id / below.columns);
+            y / factor * self.columns + x / factor
+        }))
+    }
+
     /// The number of the first node of a cluster.
+    const fn place(&self, cluster: u32) -> u32 {
+        let in_block = NODES as u32 / self.stride;
+        cluster / in_block * NODES as u32 + cluster % in_block * self.stride
+    }
+}
+
+fn ascending(ids: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut ids: Vec<u32> = ids.collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+impl Deref for Level {
+    type Target = Shape;
+
     #[inline]
-    pub(crate) const fn first_node(&self, cluster: u32) -> u32 {
-        cluster * self.stride
+    fn deref(&self) -> &Shape {
+        &self.shape
+    }
+}
+
+impl Deref for LevelEdit {
+    type Target = Shape;
+
+    fn deref(&self) -> &Shape {
+        &self.shape
+    }
+}
+
+impl Level {
+    /// A level without nodes. `lowest_side` is the side of the clusters of the lowest level.
+    ///
+    /// # Errors
+    /// [`HierarchyError::TooLarge`] for more nodes than can be addressed, [`HierarchyError::Interrupted`].
+    pub(crate) fn new(
+        grid: &Grid,
+        side: u32,
+        lowest_side: u32,
+        interrupt: &Interrupt,
+    ) -> Result<Self, HierarchyError> {
+        let [columns, rows] = [grid.width(), grid.height()].map(|cells| cells.div_ceil(side));
+        // On each of the four borders every other cell may be an entrance. On upper levels the corner cells
+        // of clusters of the lowest level may be nodes as well: they are joined with nodes beside them that
+        // end another transition.
+        let half = lowest_side.div_ceil(2);
+        let on_border = if side == lowest_side { half } else { lowest_side.min(half + 2) };
+        let stride = 4 * (side / lowest_side) * on_border;
+        let shape = Shape { side, columns, rows, stride };
+        let blocks = u64::from(shape.count()).div_ceil(NODES as u64 / u64::from(stride));
+        check::address_space(blocks * NODES as u64)?;
+        // Blocks are copied when they are first written to.
+        let block = Arc::new([Node::UNUSED; NODES]);
+        let mut clusters = Vec::new();
+        for block in 0..shape.count().div_ceil(CLUSTERS as u32) {
+            interrupt.check_every(PIECE, block as usize, super::DURING)?;
+            let first = |number| shape.place(block * CLUSTERS as u32 + number as u32);
+            let cluster = |number| Cluster { first: first(number), ..Cluster::default() };
+            clusters.push(Arc::new(std::array::from_fn(cluster)));
+        }
+        Ok(Self { nodes: vec![block; blocks as usize].into(), clusters: clusters.into(), shape })
+    }
+
+    /// Begins the next version: in place if nobody else holds this one.
+    pub(crate) fn edit(self: Arc<Self>) -> LevelEdit {
+        match Arc::try_unwrap(self) {
+            Ok(Self { shape, nodes, clusters }) => {
+                LevelEdit { shape, nodes: nodes.into_edit(), clusters: clusters.into_edit() }
+            }
+            Err(held) => {
+                LevelEdit { shape: held.shape, nodes: held.nodes.edit(), clusters: held.clusters.edit() }
+            }
+        }
+    }
+
+    #[inline]
+    pub(crate) fn cluster(&self, id: u32) -> &Cluster {
+        cluster(&self.clusters, id)
+    }
+
+    /// All clusters, row by row.
+    pub(crate) fn clusters(&self) -> impl Iterator<Item = &Cluster> {
+        (0..self.count()).map(|id| self.cluster(id))
     }
 
     /// The nodes of a cluster, in the order of their numbers.
     #[inline]
     pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
-        let first = self.first_node(cluster) as usize;
-        &self.nodes[first..first + self.clusters[cluster as usize].count as usize]
+        self.nodes_in(self.cluster(cluster))
+    }
+
+    /// The nodes of one of its clusters, in the order of their numbers.
+    #[inline]
+    pub(crate) fn nodes_in(&self, cluster: &Cluster) -> &[Node] {
+        nodes_of(&self.nodes, cluster)
+    }
+
+    /// The number of the first node of a cluster.
+    #[inline]
+    pub(crate) fn first_node(&self, cluster: u32) -> u32 {
+        self.cluster(cluster).first
     }
 
     #[inline]
     pub(crate) fn node(&self, id: u32) -> &Node {
-        &self.nodes[id as usize]
+        node(&self.nodes, id)
+    }
+
+    /// All numbers of nodes are below this one. It depends on the size of the map and the clustering alone.
+    #[inline]
+    pub(crate) fn node_numbers(&self) -> u32 {
+        (self.nodes.len() * NODES) as u32
     }
 
     /// The costs from a node to each node of its cluster.
     #[inline]
     pub(crate) fn costs_from(&self, id: u32) -> &[FixedCost] {
-        let Cluster { count, costs } = &self.clusters[self.node(id).cluster as usize];
-        let (count, index) = (*count as usize, (id - self.first_node(self.node(id).cluster)) as usize);
-        &costs[index * count..(index + 1) * count]
+        self.cluster(self.node(id).cluster).costs_from(id)
+    }
+
+    /// The memory that it uses, in bytes.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        // Blocks without nodes are one and the same.
+        let with_nodes = self.clusters().filter(|cluster| cluster.count > 0);
+        let mut used: Vec<usize> = with_nodes.map(|cluster| cluster.first as usize / NODES).collect();
+        used.dedup();
+        used.len() * size_of::<NodeBlock>()
+            + self.clusters.iter().map(|block| size_of_val(&**block)).sum::<usize>()
+            + self.clusters().map(|cluster| size_of_val(&*cluster.costs)).sum::<usize>()
+    }
+}
+
+impl LevelEdit {
+    /// The next version.
+    pub(crate) fn finish(self) -> Level {
+        Level { shape: self.shape, nodes: self.nodes.finish(), clusters: self.clusters.finish() }
+    }
+
+    fn cluster(&self, id: u32) -> &Cluster {
+        cluster(self.clusters.words(), id)
+    }
+
+    fn cluster_mut(&mut self, id: u32) -> &mut Cluster {
+        &mut block_mut(&mut self.clusters, id as usize / CLUSTERS)[id as usize % CLUSTERS]
+    }
+
+    /// The nodes of a cluster, in the order of their numbers.
+    pub(crate) fn nodes_of(&self, cluster: u32) -> &[Node] {
+        nodes_of(self.nodes.words(), self.cluster(cluster))
+    }
+
+    fn node_mut(&mut self, id: u32) -> &mut Node {
+        &mut block_mut(&mut self.nodes, id as usize / NODES)[id as usize % NODES]
     }
 
     /// The number of the node at a vertex, if there is one.
     fn node_at(&self, at: Vertex) -> Option<u32> {
         let cluster = self.cluster_at(at);
         let index = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
-        Some(self.first_node(cluster) + index as u32)
+        Some(self.cluster(cluster).first + index as u32)
     }
 
     /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
@@ -223,13 +393,13 @@ impl Level {
             return false;
         }
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let first = self.first_node(cluster) as usize;
-        let slots = &mut self.nodes[first..first + self.stride as usize];
-        slots.fill(Node::UNUSED);
-        for (slot, &(at, below)) in slots.iter_mut().zip(cells) {
-            *slot = Node::new(at, cluster, below);
+        let (first, count) = (self.cluster(cluster).first, old.len());
+        let nodes = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
+        let unused = std::iter::repeat_n(Node::UNUSED, count.saturating_sub(cells.len()));
+        for (id, node) in (first..).zip(nodes.chain(unused)) {
+            *self.node_mut(id) = node;
         }
-        self.clusters[cluster as usize].count = cells.len() as u32;
+        self.cluster_mut(cluster).count = cells.len() as u32;
         true
     }
 
@@ -237,15 +407,27 @@ impl Level {
     /// transition, and in the corners of clusters also ends of different transitions, between which a step is
     /// legal as well.
     pub(crate) fn join_across(&mut self, cluster: u32) {
-        let first = self.first_node(cluster);
-        for id in first..first + self.clusters[cluster as usize].count {
-            let at = self.node(id).at();
+        let &Cluster { first, count, .. } = self.cluster(cluster);
+        for id in first..first + count {
+            let node = node(self.nodes.words(), id);
             let mut across = [(-1, 0), (1, 0), (0, -1), (0, 1)]
                 .into_iter()
-                .map(|d| at + d.into())
+                .map(|d| node.at() + d.into())
                 .filter(|&other| self.is_in_cluster(other) && self.cluster_at(other) != cluster)
                 .filter_map(|other| self.node_at(other));
-            self.nodes[id as usize].across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
+            let across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
+            if across != node.across {
+                self.node_mut(id).across = across;
+            }
         }
+    }
+
+    /// Replaces the costs between the nodes of a cluster. Returns whether that changed them.
+    pub(crate) fn set_costs(&mut self, cluster: u32, costs: &[FixedCost]) -> bool {
+        let is_new = *self.cluster(cluster).costs != *costs;
+        if is_new {
+            self.cluster_mut(cluster).costs = costs.into();
+        }
+        is_new
     }
 }

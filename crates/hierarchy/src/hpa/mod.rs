@@ -1,11 +1,13 @@
 //! HPA*: the map in clusters.
 
+mod bits;
 mod build;
 mod cluster_search;
 mod clustering;
 mod codec;
 mod fixed_cost;
 mod graph;
+mod join;
 mod level;
 mod planner;
 mod search;

@@ -1,6 +1,9 @@
 //! Answering queries on a [`ClusterGraph`].
 
-use std::ops::{Deref, DerefMut};
+use std::{
+    ops::{Deref, DerefMut},
+    sync::Arc,
+};
 
 use mediant_grid::{Centers, Change, GridGraph, Identity, Vertex};
 use mediant_moves::Cost;
@@ -89,7 +92,8 @@ struct PathNode {
 }
 
 impl HpaStar<(), ()> {
-    /// The scratch memory that a planner on this graph takes when it is made, in bytes.
+    /// The scratch memory that a planner on this graph takes when it is made, in bytes. The size of the map
+    /// and the clustering decide it, so that it is the same after a repair.
     #[must_use]
     pub fn scratch_bytes(index: &ClusterGraph) -> usize {
         SearchTree::<()>::bytes(index.most_nodes() + 2)
@@ -178,7 +182,7 @@ where
             self.phase = Phase::Found { goal, is_direct: true };
             return Ok(SearchStatus::Found);
         }
-        let separates = |level: &Level| level.cluster_at(start) != level.cluster_at(goal);
+        let separates = |level: &Arc<Level>| level.cluster_at(start) != level.cluster_at(goal);
         let top = self.index.levels.iter().rposition(separates).unwrap_or(0);
         let direct = self.insert(query, top, &mut Part::new(observer));
         let query = AbstractQuery { start, goal, top, direct };

@@ -9,7 +9,7 @@ use mediant_search::{
 
 use super::{
     fixed_cost::FixedCost,
-    level::{Bounds, Level},
+    level::{Bounds, Cluster, Level, Node},
 };
 
 /// The start or the goal of a search: its cluster, and the costs between it and each node of that cluster.
@@ -29,13 +29,13 @@ pub(crate) struct Goal<'c> {
 
 impl Level {
     /// The number of the start of a search, which need not be a node.
-    pub(crate) const fn start_id(&self) -> u32 {
-        self.nodes.len() as u32
+    pub(crate) fn start_id(&self) -> u32 {
+        self.node_numbers()
     }
 
     /// The number of its goal.
-    pub(crate) const fn goal_id(&self) -> u32 {
-        self.nodes.len() as u32 + 1
+    pub(crate) fn goal_id(&self) -> u32 {
+        self.node_numbers() + 1
     }
 }
 
@@ -74,7 +74,7 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
         let level = self.level;
         self.tree.start_search();
         self.tree.set_path(level.start_id(), Cost::ZERO, SearchTree::<()>::NONE, ());
-        self.cross_cluster(level.start_id(), start, Cost::ZERO);
+        self.cross_cluster(level.start_id(), (level.cluster(start.cluster), start.costs), Cost::ZERO);
         if let Some(cost) = goal.and_then(|goal| goal.direct.cost()) {
             self.tree.set_path_and_open(level.goal_id(), cost, Cost::ZERO, level.start_id(), ());
         }
@@ -98,10 +98,11 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
             let parent = self.tree.parent(id).map(|(parent, ())| level.node(parent).at());
             self.observer.expanded(NodeEvent { at: node.at(), parent, g, f });
             self.observer.reached(node.at(), g);
-            self.cross_cluster(id, Endpoint { cluster: node.cluster, costs: level.costs_from(id) }, g);
-            self.cross_border(id, node.at(), g);
+            let cluster = level.cluster(node.cluster);
+            self.cross_cluster(id, (cluster, cluster.costs_from(id)), g);
+            self.cross_border(id, node, g);
             if let Some(Goal { endpoint, .. }) = goal.filter(|goal| goal.endpoint.cluster == node.cluster) {
-                let index = (id - level.first_node(node.cluster)) as usize;
+                let index = (id - cluster.first) as usize;
                 if let Some(rest) = endpoint.costs[index].cost()
                     && self.tree.cost(level.goal_id()).is_none_or(|known| g + rest < known)
                 {
@@ -116,40 +117,47 @@ impl<E: Fn(Vertex) -> Cost, O: Observer> HpaSearch<'_, E, O> {
     /// Gives the other nodes of a node's cluster their costs, and crosses the border from each that became
     /// cheaper.
     #[inline]
-    fn cross_cluster(&mut self, id: u32, from: Endpoint<'_>, g: Cost) {
-        let level = self.level;
-        for ((node, cost), other) in
-            level.nodes_of(from.cluster).iter().zip(from.costs).zip(level.first_node(from.cluster)..)
-        {
+    fn cross_cluster(&mut self, id: u32, (cluster, costs): (&Cluster, &[FixedCost]), g: Cost) {
+        for ((node, cost), other) in self.level.nodes_in(cluster).iter().zip(costs).zip(cluster.first..) {
             let Some(cost) = cost.cost() else { continue };
             let g = g + cost;
             if self.tree.cost(other).is_none_or(|known| g < known) {
                 self.tree.set_path(other, g, id, ());
-                self.cross_border(other, node.at(), g);
+                self.cross_border(other, node, g);
             }
         }
     }
 
     /// Generates the nodes across the border from a node.
     #[inline]
-    fn cross_border(&mut self, id: u32, from: Vertex, g: Cost) {
+    fn cross_border(&mut self, id: u32, from: &Node, g: Cost) {
         const STEP: Cost = Cost::from_bits(1 << Cost::FRACTION_BITS);
-        let level = self.level;
-        for other in level.node(id).across() {
-            let at = level.node(other).at();
-            let g = g + STEP;
-            if !self.bounds.contains(at) || self.tree.cost(other).is_some_and(|known| known <= g) {
-                continue;
+        let g = g + STEP;
+        for other in from.across() {
+            if self.tree.cost(other).is_none_or(|known| g < known) {
+                self.enter(other, id, from.at(), g);
             }
-            let h = (self.estimate)(at);
-            let (is_first, swaps) = self.tree.set_path_and_open(other, g, h, id, ());
-            self.observer.percolated(swaps);
-            let event = NodeEvent { at, parent: Some(from), g, f: g + h };
-            if is_first {
-                self.observer.generated(event);
-            } else {
-                self.observer.updated(event);
-            }
+        }
+    }
+
+    /// Gives a node within the bounds a cheaper path, and opens it.
+    ///
+    /// Most steps across a border make nothing cheaper. They are found out where they are taken, without what
+    /// a call of this sets up.
+    #[inline(never)]
+    fn enter(&mut self, id: u32, parent: u32, from: Vertex, g: Cost) {
+        let at = self.level.node(id).at();
+        if !self.bounds.contains(at) {
+            return;
+        }
+        let h = (self.estimate)(at);
+        let (is_first, swaps) = self.tree.set_path_and_open(id, g, h, parent, ());
+        self.observer.percolated(swaps);
+        let event = NodeEvent { at, parent: Some(from), g, f: g + h };
+        if is_first {
+            self.observer.generated(event);
+        } else {
+            self.observer.updated(event);
         }
     }
 }

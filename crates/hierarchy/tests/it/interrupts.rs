@@ -52,7 +52,7 @@ fn repairs_stop() {
     let change =
         Change::new(Arc::clone(before.grid())).edit(at, |x, y| after.grid().is_blocked(x as i32, y as i32));
     let clusters = ClusterGraph::new(&before, CLUSTERING).expect("an index");
-    check_interrupts("repairing clusters", 500, |i| clusters.repaired(&change, i), by);
+    check_interrupts("repairing clusters", 300, |i| clusters.repaired(&change, i), by);
     let segments = SegmentGraph::new(&before, 3).expect("an index");
     check_interrupts("repairing segments", 4, |i| segments.repaired(&change, i), by);
     assert_eq!(Ok(clusters), ClusterGraph::new(&before, CLUSTERING));

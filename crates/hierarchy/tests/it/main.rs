@@ -1,5 +1,6 @@
 //! The hierarchies against their definitions, slow references and new indexes, on seeded random maps.
 
+mod chains;
 mod clusters;
 mod common;
 mod complete;
