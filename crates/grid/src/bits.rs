@@ -106,7 +106,11 @@ impl BitMatrix {
     }
 
     /// Begins an edit of this matrix, which stays as it is.
-    pub(crate) fn edit(&self) -> MatrixEdit {
+    ///
+    /// Hidden, as [`set_run`](Self::set_run) is.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn edit(&self) -> MatrixEdit {
         let &Self { width, height, words_per_row, .. } = self;
         MatrixEdit {
             empty: Self { words: Versioned::default(), width, height, words_per_row },
@@ -223,7 +227,8 @@ impl BitMatrix {
 }
 
 /// The next version of a matrix while it is made.
-pub(crate) struct MatrixEdit {
+#[doc(hidden)]
+pub struct MatrixEdit {
     /// The matrix without its words.
     empty: BitMatrix,
     words: VersionEdit<u64>,
@@ -247,8 +252,46 @@ impl MatrixEdit {
         [before, after]
     }
 
+    /// [`BitMatrix::width`].
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.empty.width
+    }
+
+    /// [`BitMatrix::height`].
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.empty.height
+    }
+
+    /// [`BitMatrix::row`], as it is now.
+    #[must_use]
+    #[inline]
+    pub fn row(&self, y: i32) -> BitRow<'_> {
+        let Self { empty, words } = self;
+        BitRow { words: words.words(), origin: empty.index(0, y), bits_per_row: empty.bits_per_row() }
+    }
+
+    /// [`BitMatrix::set_run`].
+    pub fn set_run(&mut self, y: i32, first: i32, end: i32, blocked: bool) {
+        self.set_all(self.empty.run(y, first, end), blocked);
+    }
+
+    /// [`BitMatrix::set_run_of_column`].
+    pub fn set_run_of_column(&mut self, x: i32, first: i32, end: i32, blocked: bool) {
+        self.set_all(self.empty.run_of_column(x, first, end), blocked);
+    }
+
+    fn set_all(&mut self, run: BitRun, blocked: bool) {
+        run.for_each(|word, bits| {
+            let before = self.words.words()[word];
+            self.words.set(word, if blocked { before | bits } else { before & !bits });
+        });
+    }
+
     /// The next version.
-    pub(crate) fn finish(self) -> BitMatrix {
+    #[must_use]
+    pub fn finish(self) -> BitMatrix {
         BitMatrix { words: self.words.finish(), ..self.empty }
     }
 }

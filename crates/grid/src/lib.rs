@@ -77,7 +77,7 @@ mod vertex;
 
 pub use ascii::{AsciiMap, draw};
 #[doc(hidden)]
-pub use bits::{BitIndex, load};
+pub use bits::{BitIndex, MatrixEdit, load};
 pub use bits::{BitMatrix, BitRow};
 pub use change::Change;
 pub use clearance::{Clearance, Fit, Outside, SizeError, Widest};

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Corners, FreeSpace};
+use mediant_grid::{Corners, FreeSpace, Interrupt};
 use mediant_moves::K;
 use mediant_search::{Anya, DeadEnds};
 
 use super::{Boxed, EngineIndex, Source, boxed, shared};
 use crate::{
+    change::Change,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
@@ -72,6 +73,18 @@ impl EngineIndex for AnyaIndex {
         let (space, dead_ends) =
             (Arc::clone(&Corners::layers(space, Engine::Anya)?.free), Some(Arc::clone(dead_ends)));
         shared(Ok(Self { space, k: setup.k(), dead_ends })).map(Some)
+    }
+
+    /// Paths cost what they cost with dead ends that are found anew.
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let space = Arc::clone(&Corners::layers(change.after(), Engine::Anya)?.free);
+        let repair = |dead_ends: &Arc<DeadEnds>| dead_ends.repaired(&space, change.of_grid(), interrupt);
+        let dead_ends = self.dead_ends.as_ref().map(repair).transpose()?.map(Arc::new);
+        shared(Ok(Self { space, k: self.k, dead_ends })).map(Some)
     }
 
     fn is_for_one_path(&self) -> bool {

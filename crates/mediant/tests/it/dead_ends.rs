@@ -124,7 +124,7 @@ fn a_changed_map_has_other_dead_ends() {
             with = with.repair(&change).expect("its map");
             without = without.repair(&change).expect("its map");
             space = change.after().clone();
-            assert_eq!([with.origin(), without.origin()], [Origin::Prepared; 2]);
+            assert_eq!([with.origin(), without.origin()], [Origin::Repaired; 2]);
             assert_eq!(without.memory_bytes(), 0);
             assert!(with.memory_bytes() > 0);
             let queries = queries(space.map().grid(), rng, 12);

@@ -263,7 +263,7 @@ fn names_are_read_as_people_write_them() {
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
-/// large, and says how it came about.
+/// large, and says how it came about. That of Anya may leave out less, but paths cost the same.
 #[test]
 fn repaired_indexes_are_as_good_as_new_ones() {
     let mut rng = Rng::new(16);
@@ -292,7 +292,8 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let (setup, is_same) = (index.setup(), index.identity() == space.identity());
                 *index = index.repair(&change).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let anew = setup.prepare(&space).expect("as before");
-                let is_repaired = matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa);
+                let is_anya = setup.engine.kind() == Engine::Anya;
+                let is_repaired = is_anya || matches!(setup.engine.kind(), Engine::Hpa | Engine::Chpa);
                 let origin = match (is_same, is_repaired) {
                     (true, _) => Origin::Unchanged,
                     (false, true) => Origin::Repaired,
@@ -302,12 +303,22 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));
                 assert_eq!(index.identity(), space.identity());
-                assert_eq!(index.memory_bytes(), anew.memory_bytes(), "{setup}, edit {edit}");
+                assert!(is_anya || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
                 assert_eq!(index.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
                 let (mut repaired, mut new) = (index.planner(), anew.planner());
                 for _ in 0..8 {
                     let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
                     let query = Ends::new(end(), end());
+                    if is_anya {
+                        let [found, known] = [&mut repaired, &mut new]
+                            .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
+                        let is_same = match (&found, &known) {
+                            (Ok(found), Ok(known)) => (found - known).abs() < 1e-9 * (1.0 + known.abs()),
+                            (found, known) => found == known,
+                        };
+                        assert!(is_same, "{setup}, {query:?}: {found:?}, {known:?}");
+                        continue;
+                    }
                     assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
                 }
             }

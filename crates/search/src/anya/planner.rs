@@ -115,6 +115,34 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
         Self { opened, ..self }
     }
 
+    /// Goes on with another map under the same rule, and without its dead ends if some are given, but with the
+    /// scratch memory that this planner has. If its dead ends were [repaired](DeadEnds::repaired) to these, it
+    /// follows them by work that follows the repair. The last search is forgotten.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for a free space of another rule, and for dead ends of another map or rule of motion.
+    pub fn follow(&mut self, space: S, dead_ends: Option<Arc<DeadEnds>>) -> Result<(), Mismatch> {
+        let (mine, identity) = (Identity { map: None, ..self.space.identity() }, space.identity());
+        mine.check("the planner", ("the free space", identity))?;
+        if let Some(dead_ends) = &dead_ends {
+            dead_ends.identity().check("the dead ends", ("the free space", identity))?;
+        }
+        self.opened = match (self.opened.take(), dead_ends) {
+            (Some(mut opened), Some(dead_ends)) => {
+                opened.follow(dead_ends);
+                Some(opened)
+            }
+            (_, dead_ends) => dead_ends.map(Opened::new),
+        };
+        let size = |space: &S| (space.grid().width(), space.grid().height());
+        if size(&self.space) != size(&space) {
+            let (width, height) = size(&space);
+            self.frontier = Frontier::new(self.frontier.norm().clone(), width + 1, height + 1);
+        }
+        (self.space, self.last, self.status) = (space, None, SearchStatus::default());
+        Ok(())
+    }
+
     /// The rows of the map, as far as it is searched.
     fn rows<'a>(space: &'a FreeSpace<Corners>, opened: Option<&'a Opened>) -> &'a BitMatrix {
         opened.map_or_else(|| space.grid().rows(), Opened::rows)

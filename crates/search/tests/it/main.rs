@@ -5,6 +5,7 @@ mod any_angle_fields;
 mod anya;
 mod canonical;
 mod common;
+mod dead_ends;
 mod events;
 mod exact;
 mod exhaustive;

@@ -2,7 +2,7 @@
 
 use mediant_grid::{BitMatrix, Corners, DiagonalGap, FreeSpace, Interrupt, Interrupted};
 
-use super::runs::{CellRun, DURING, Kinds};
+use super::runs::{CellRun, DURING, Kinds, Matrix};
 
 /// The most cells of a dead end. Rooms are made of longer runs: single doors lead to them, so they are parts,
 /// and one run opens them. As dead ends they would be opened run by run for each query that ends there; on
@@ -10,10 +10,10 @@ use super::runs::{CellRun, DURING, Kinds};
 const LONGEST: i32 = 8;
 
 /// The search for the dead ends of a map.
-pub(super) struct DeadEndSearch {
-    pub(super) rows: BitMatrix,
-    pub(super) columns: BitMatrix,
-    pub(super) kinds: Kinds,
+pub(super) struct DeadEndSearch<M = BitMatrix> {
+    pub(super) rows: M,
+    pub(super) columns: M,
+    pub(super) kinds: Kinds<M>,
     /// Whether paths may pass gaps.
     pub(super) gaps_are_open: bool,
 }
@@ -68,18 +68,6 @@ impl DeadEndSearch {
         Ok(())
     }
 
-    const fn lines(&self, is_vertical: bool) -> &BitMatrix {
-        if is_vertical { &self.columns } else { &self.rows }
-    }
-
-    /// The first run of free cells of a line from `from` on.
-    fn run_from(&self, is_vertical: bool, line: i32, from: i32) -> Option<CellRun> {
-        let lines = self.lines(is_vertical);
-        let (row, length) = (lines.row(line), lines.width() as i32);
-        let first = row.first_free(from, length);
-        (first < length).then(|| CellRun { is_vertical, line, first, end: row.first_blocked(first, length) })
-    }
-
     /// Blocks a run if it is a dead end, then the one behind its door if that is one now, and so on.
     fn block_chain(
         &mut self,
@@ -91,28 +79,51 @@ impl DeadEndSearch {
         while let Some((side, (first, end))) = self.door(run) {
             blocked += 1;
             interrupt.check_every(1 << 12, blocked, DURING)?;
-            run.set(&mut self.rows, true);
-            run.set_across(&mut self.columns, true);
-            if run.is_vertical {
-                run.set(&mut self.kinds.vertical, true);
-                run.set_across(&mut self.kinds.vertical_columns, true);
-            }
-            if side > 0 {
-                run.set(&mut self.kinds.beyond, true);
-            }
+            self.block(run, side);
             // Across the line only the runs that the door leads to go on.
             across[first as usize..end as usize].fill(true);
-            let line = run.line + side;
-            let start = self.lines(run.is_vertical).row(line).run_start(first, 0);
-            let Some(next) = self.run_from(run.is_vertical, line, start) else { break };
+            let Some(next) = self.run_at(run.is_vertical, run.line + side, first) else { break };
             run = next;
         }
         Ok(())
     }
+}
+
+impl<M: Matrix> DeadEndSearch<M> {
+    const fn lines(&self, is_vertical: bool) -> &M {
+        if is_vertical { &self.columns } else { &self.rows }
+    }
+
+    /// The first run of free cells of a line from `from` on.
+    fn run_from(&self, is_vertical: bool, line: i32, from: i32) -> Option<CellRun> {
+        let lines = self.lines(is_vertical);
+        let (row, (length, _)) = (lines.row(line), lines.size());
+        let first = row.first_free(from, length);
+        (first < length).then(|| CellRun { is_vertical, line, first, end: row.first_blocked(first, length) })
+    }
+
+    /// The run of free cells of a line with the cell `at`; the next one if that cell is blocked.
+    pub(super) fn run_at(&self, is_vertical: bool, line: i32, at: i32) -> Option<CellRun> {
+        let start = self.lines(is_vertical).row(line).run_start(at, 0);
+        self.run_from(is_vertical, line, start)
+    }
+
+    /// Blocks a dead end whose door is on one side.
+    pub(super) fn block(&mut self, run: CellRun, side: i32) {
+        run.set(&mut self.rows, true);
+        run.set_across(&mut self.columns, true);
+        if run.is_vertical {
+            run.set(&mut self.kinds.vertical, true);
+            run.set_across(&mut self.kinds.vertical_columns, true);
+        }
+        if side > 0 {
+            run.set(&mut self.kinds.beyond, true);
+        }
+    }
 
     /// The door of a dead end: on which side it is, and from where to where; `None` for other runs, and for
     /// those that are too long.
-    fn door(&self, run: CellRun) -> Option<(i32, (i32, i32))> {
+    pub(super) fn door(&self, run: CellRun) -> Option<(i32, (i32, i32))> {
         let CellRun { is_vertical, line, first, end } = run;
         if end - first > LONGEST {
             return None;

@@ -32,20 +32,38 @@
 //! **Which cells were a run** is known by two bits a cell. When a run of a row was blocked, the cells at its
 //! ends were blocked, on the map or earlier as parts of columns: so it is the longest run of free cells of
 //! the row that are no parts of columns, and the other way around. The third bit of a cell is whether the
-//! search may enter it. One of the bits is kept in rows and in columns: 0.6 bytes a cell in all, and 8 bytes
-//! for each run of a part other than the first. Each planner has rows of its own for what is open for its
-//! query, and for the parts of each kind ([`Opened`]).
+//! search may enter it. One of the bits is kept in rows and in columns: 0.6 bytes a cell in all, 8 bytes for
+//! each run of a part other than the first, and some 16 for each row and column. Each planner has rows of its
+//! own for what is open for its query, and for the parts of each kind ([`Opened`]).
+//!
+//! **After an edit** of the map (module `repair`) the runs that touch a changed cell are opened as a query
+//! opens them: with all that are behind their doors. So for each run that stays blocked, the cells around it
+//! are as they were when it was blocked, but for those that were blocked later: the same runs in the same
+//! order, without those that were opened, are dead ends of the new map. Then dead ends are looked for around
+//! the cells that changed or were opened, and these come last in the order. So what queries rely on is true
+//! again, and a repair leaves out about as much as a new search. Its work follows the change and the opened
+//! runs, most often some dozen cells. Of the parts the bridges stay that are certain to be bridges still
+//! (module `repair_parts`): after many edits the parts are fewer than new ones, and their memory is larger.
 
 mod find;
 mod opened;
 mod parts;
+mod repair;
+mod repair_parts;
 mod runs;
 #[cfg(test)]
 mod tests;
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
+use std::sync::Arc;
 
-use self::{find::DeadEndSearch, parts::Parts, runs::Kinds};
+use mediant_grid::{BitMatrix, Corners, FreeSpace, Grid, Identity, Interrupt, Interrupted, uninterrupted};
+
+use self::{
+    find::DeadEndSearch,
+    parts::Parts,
+    repair::Repair,
+    runs::{CellRun, Kinds},
+};
 
 pub(super) use self::opened::Opened;
 
@@ -64,6 +82,8 @@ pub struct DeadEnds {
     kinds: Kinds,
     /// The parts of the map without dead ends: of its rows, and of its columns.
     parts: [Parts; 2],
+    /// The last repairs, or that of no cell by which these were found.
+    repairs: Vec<Arc<Repair>>,
 }
 
 impl DeadEnds {
@@ -84,7 +104,28 @@ impl DeadEnds {
         let DeadEndSearch { rows, columns, kinds, gaps_are_open } = search;
         let parts = |lines, is_vertical| Parts::new(lines, is_vertical, gaps_are_open, interrupt);
         let parts = [parts(&rows, false)?, parts(&columns, true)?];
-        Ok(Self { identity: space.identity(), rows, columns, kinds, parts })
+        let repairs = vec![Arc::default()];
+        Ok(Self { identity: space.identity(), rows, columns, kinds, parts, repairs })
+    }
+
+    /// The dead end that a free cell of the map is part of. It must be of one.
+    fn run_of(&self, grid: &Grid, x: i32, y: i32) -> CellRun {
+        let Kinds { vertical, vertical_columns, .. } = &self.kinds;
+        if vertical.row(y).is_blocked(x) {
+            let column = vertical_columns.row(x);
+            let (first, end) = (column.blocked_start(y, 0), column.first_free(y, grid.height() as i32));
+            return CellRun { is_vertical: true, line: x, first, end };
+        }
+        let (free, vertical) = (grid.rows().row(y), vertical.row(y));
+        let first = free.run_start(x, vertical.run_start(x, 0));
+        let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
+        CellRun { is_vertical: false, line: y, first, end }
+    }
+
+    /// The line on the side of a dead end where its door is.
+    fn line_behind_door(&self, run: CellRun) -> i32 {
+        let (x, y) = run.first_cell();
+        run.line + if self.kinds.beyond.row(y).is_blocked(x) { 1 } else { -1 }
     }
 
     /// Their identity: the map and the rule of motion, for every k.

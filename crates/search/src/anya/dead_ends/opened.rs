@@ -6,7 +6,8 @@ use mediant_grid::{BitMatrix, Grid, Vertex};
 
 use super::{
     DeadEnds,
-    parts::{Part, Parts},
+    parts::{Link, Part, Parts},
+    repair::Repair,
     runs::CellRun,
 };
 
@@ -46,6 +47,47 @@ impl Opened {
         Self { dead_ends, rows, open: Vec::new(), of_rows, of_columns }
     }
 
+    /// Goes on with other dead ends: by work that follows their difference if these have been repaired to those
+    /// by a few repairs, else as if new.
+    pub(in super::super) fn follow(&mut self, dead_ends: Arc<DeadEnds>) {
+        let Some(repairs) = dead_ends.repairs_since(&self.dead_ends) else {
+            *self = Self::new(dead_ends);
+            return;
+        };
+        self.close();
+        let Self { rows, of_rows, of_columns, .. } = self;
+        for Repair { cells, bridges: [in_rows, in_columns] } in repairs.iter().map(Arc::as_ref) {
+            of_rows.set_all(in_rows.iter().map(|&[before, _]| before), false, &of_columns.rows, rows);
+            of_columns.set_all(in_columns.iter().map(|&[before, _]| before), false, &of_rows.rows, rows);
+            for &(x, y, is_blocked) in cells {
+                let (x, y) = (i32::from(x), i32::from(y));
+                for rows in [&mut *rows, &mut of_rows.rows, &mut of_columns.rows] {
+                    rows.set_run(y, x, x + 1, is_blocked);
+                }
+            }
+            of_rows.set_all(in_rows.iter().map(|&[_, after]| after), true, &of_columns.rows, rows);
+            of_columns.set_all(in_columns.iter().map(|&[_, after]| after), true, &of_rows.rows, rows);
+        }
+        self.dead_ends = dead_ends;
+    }
+
+    /// Whether the same is open.
+    #[cfg(test)]
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let rows =
+            |opened: &Self| [&opened.rows, &opened.of_rows.rows, &opened.of_columns.rows].map(Clone::clone);
+        rows(self) == rows(other)
+    }
+
+    /// Closes what is open.
+    fn close(&mut self) {
+        self.of_rows.restore(&self.of_columns.rows, &mut self.rows);
+        self.of_columns.restore(&self.of_rows.rows, &mut self.rows);
+        for run in self.open.drain(..) {
+            run.set(&mut self.rows, true);
+        }
+    }
+
     /// The rows of the map without what is closed.
     pub(in super::super) const fn rows(&self) -> &BitMatrix {
         &self.rows
@@ -53,11 +95,7 @@ impl Opened {
 
     /// Opens the dead ends that paths between two vertices may need, and closes all others.
     pub(in super::super) fn open(&mut self, grid: &Grid, ends: [Vertex; 2]) {
-        self.of_rows.restore(&self.of_columns.rows, &mut self.rows);
-        self.of_columns.restore(&self.of_rows.rows, &mut self.rows);
-        for run in self.open.drain(..) {
-            run.set(&mut self.rows, true);
-        }
+        self.close();
         for Vertex { x, y } in ends {
             for (x, y) in [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)] {
                 self.open_at(grid, x, y);
@@ -81,37 +119,17 @@ impl Opened {
             self.of_rows.need(of_rows.of(x, y));
             self.of_columns.need(of_columns.of(y, x));
         } else if grid.is_free(x, y) && self.rows.row(y).is_blocked(x) {
-            let run = if self.dead_ends.kinds.vertical.row(y).is_blocked(x) {
-                self.vertical_run(x, y)
-            } else {
-                self.horizontal_run(grid, x, y)
-            };
+            let run = self.dead_ends.run_of(grid, x, y);
             run.set(&mut self.rows, false);
             self.open.push(run);
         }
     }
 
-    /// The dead end of a row that a cell is part of.
-    fn horizontal_run(&self, grid: &Grid, x: i32, y: i32) -> CellRun {
-        let (free, vertical) = (grid.rows().row(y), self.dead_ends.kinds.vertical.row(y));
-        let first = free.run_start(x, vertical.run_start(x, 0));
-        let end = free.first_blocked(x, vertical.first_blocked(x, grid.width() as i32));
-        CellRun { is_vertical: false, line: y, first, end }
-    }
-
-    /// The dead end of a column that a cell is part of.
-    fn vertical_run(&self, x: i32, y: i32) -> CellRun {
-        let column = self.dead_ends.kinds.vertical_columns.row(x);
-        let first = column.blocked_start(y, 0);
-        CellRun { is_vertical: true, line: x, first, end: column.first_free(y, self.rows.height() as i32) }
-    }
-
     /// Opens the closed dead ends on the side of a run where its door is. Dead ends with a door of their own
     /// there are not needed, but two bits do not tell.
     fn open_behind_door(&mut self, grid: &Grid, run: CellRun) {
-        let CellRun { is_vertical, line, first, end } = run;
-        let (x, y) = run.first_cell();
-        let beside = line + if self.dead_ends.kinds.beyond.row(y).is_blocked(x) { 1 } else { -1 };
+        let CellRun { is_vertical, first, end, .. } = run;
+        let beside = self.dead_ends.line_behind_door(run);
         if is_vertical {
             self.open_in_column(grid, beside, (first, end));
         } else {
@@ -176,9 +194,9 @@ impl OpenParts {
         while let Some(number) = self.needed.pop()
             && number != 0
         {
-            let Part { parent, inner, outer } = parts.part(number);
+            let Part { parent, link, inner, outer } = parts.part(number);
             self.set(inner, false, other, both);
-            if self.needed.is_empty() {
+            if self.needed.is_empty() && link != Link::Joined {
                 let (x, y) = outer.first_cell();
                 if !self.rows.row(y).is_blocked(x) {
                     self.set(outer, true, other, both);
@@ -193,6 +211,17 @@ impl OpenParts {
     fn set(&mut self, run: CellRun, value: bool, other: &BitMatrix, both: &mut BitMatrix) {
         run.set_in(&mut self.rows, other, both, value);
         self.bridges.push((run, !value));
+    }
+
+    /// Shuts bridges, or opens them, for all queries.
+    fn set_all(
+        &mut self,
+        runs: impl Iterator<Item = CellRun>,
+        value: bool,
+        other: &BitMatrix,
+        both: &mut BitMatrix,
+    ) {
+        runs.for_each(|run| run.set_in(&mut self.rows, other, both, value));
     }
 
     /// Makes all bridges what they were before the query.

@@ -19,7 +19,9 @@
 //! Where a run has a door with one other run, both touch in one stretch. So the runs above a run are
 //! neighbors in their row, and so are those below it.
 
-use mediant_grid::{BitMatrix, Interrupt, Interrupted};
+use std::sync::Arc;
+
+use mediant_grid::{BitMatrix, Interrupt, Interrupted, Versioned};
 
 use super::runs::{CellRun, DURING};
 
@@ -29,29 +31,70 @@ const PIECE: usize = 1 << 14;
 /// The parts of a map, with their bridges. Part 0 is the root of each of its trees.
 #[derive(Clone, Debug)]
 pub(super) struct Parts {
-    /// For each row where its runs begin, and at last where they end.
-    rows: Vec<u32>,
-    /// The runs that are not in part 0, row by row.
-    runs: Vec<PartRun>,
-    parts: Vec<Part>,
+    pub(super) lines: Lines,
+    /// All but part 0.
+    pub(super) parts: Versioned<Part>,
 }
 
 /// A part, whose parent has a smaller number.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Part {
     pub(super) parent: u32,
-    /// The run at its side of the bridge to the parent.
+    pub(super) link: Link,
+    /// The run at its side of the bridge to the parent; empty if there is no bridge.
     pub(super) inner: CellRun,
     /// The run of the parent there.
     pub(super) outer: CellRun,
 }
 
+/// How a part hangs on its parent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Link {
+    /// By a bridge.
+    Bridge,
+    /// Not at all any more: the part and all that hang on it are cut off.
+    Cut,
+    /// There may be several ways since a repair: the two are one part.
+    Joined,
+}
+
 /// A run of a row, from one column up to another, in a part. Maps have at most 2¹⁵ columns.
-#[derive(Clone, Copy, Debug)]
-struct PartRun {
-    first: u16,
-    end: u16,
-    part: u32,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct PartRun {
+    pub(super) first: u16,
+    pub(super) end: u16,
+    pub(super) part: u32,
+}
+
+/// For each row its runs that are not in part 0, in bands of rows, so that one version shares with the next
+/// the bands and the rows that stay.
+#[derive(Clone, Debug)]
+pub(super) struct Lines(Arc<Vec<Arc<Band>>>);
+
+type Band = Vec<Arc<[PartRun]>>;
+
+/// The rows of a band.
+const BAND: usize = 64;
+
+impl Lines {
+    /// The runs of a row.
+    pub(super) fn get(&self, y: i32) -> &[PartRun] {
+        &self.0[y as usize / BAND][y as usize % BAND]
+    }
+
+    pub(super) fn set(&mut self, y: i32, runs: Vec<PartRun>) {
+        let band = &mut Arc::make_mut(&mut self.0)[y as usize / BAND];
+        Arc::make_mut(band)[y as usize % BAND] = runs.into();
+    }
+
+    fn memory_bytes(&self) -> usize {
+        // Two counters with each array.
+        let line = |line: &Arc<[PartRun]>| match size_of_val(&**line) {
+            0 => size_of_val(line),
+            bytes => bytes + 2 * size_of::<usize>() + size_of_val(line),
+        };
+        self.0.iter().flat_map(|band| band.iter().map(line)).sum()
+    }
 }
 
 impl Parts {
@@ -64,23 +107,27 @@ impl Parts {
     ) -> Result<Self, Interrupted> {
         let graph = RunGraph::new(map, is_vertical, gaps_are_open, interrupt)?;
         let (of, parts) = graph.parts(interrupt)?;
-        let mut runs = Vec::new();
-        let mut rows = vec![0; map.height() as usize + 1];
-        for (vertex, &part) in graph.vertices.iter().zip(&of).filter(|&(_, &part)| part != 0) {
-            let CellRun { line, first, end, .. } = vertex.run;
-            runs.push(PartRun { first: first as u16, end: end as u16, part });
-            rows[line as usize + 1] = runs.len() as u32;
-        }
-        for y in 1..rows.len() {
-            rows[y] = rows[y].max(rows[y - 1]);
-        }
-        runs.shrink_to_fit();
-        Ok(Self { rows, runs, parts })
+        let mut runs = graph.vertices.iter().map(|vertex| vertex.run).zip(of).peekable();
+        let (empty, mut line) = (Arc::<[PartRun]>::from([]), Vec::new());
+        let mut of_row = |y: i32| {
+            line.clear();
+            while let Some((CellRun { first, end, .. }, part)) = runs.next_if(|(run, _)| run.line == y) {
+                if part != 0 {
+                    line.push(PartRun { first: first as u16, end: end as u16, part });
+                }
+            }
+            if line.is_empty() { Arc::clone(&empty) } else { Arc::from(&*line) }
+        };
+        let height = map.height() as i32;
+        let mut band =
+            |first: i32| Arc::new((first..height.min(first + BAND as i32)).map(&mut of_row).collect());
+        let lines = Lines(Arc::new((0..height).step_by(BAND).map(&mut band).collect()));
+        Ok(Self { lines, parts: parts.into() })
     }
 
     /// The part of a cell.
     pub(super) fn of(&self, x: i32, y: i32) -> u32 {
-        let runs = &self.runs[self.rows[y as usize] as usize..self.rows[y as usize + 1] as usize];
+        let runs = self.lines.get(y);
         let at = runs.partition_point(|run| i32::from(run.end) <= x);
         runs.get(at).filter(|run| i32::from(run.first) <= x).map_or(0, |run| run.part)
     }
@@ -88,8 +135,8 @@ impl Parts {
     /// Calls `visit` for the parts of some cells one below the other, again and again for each of them.
     pub(super) fn for_each_across(&self, x: i32, (first, end): (i32, i32), mut visit: impl FnMut(u32)) {
         let mut is_in_first = false;
-        for (y, row) in (first..end).zip(self.rows[first as usize..=end as usize].windows(2)) {
-            if row[0] == row[1] {
+        for y in first..end {
+            if self.lines.get(y).is_empty() {
                 is_in_first = true;
             } else {
                 visit(self.of(x, y));
@@ -107,8 +154,7 @@ impl Parts {
 
     /// The memory that they take, in bytes.
     pub(super) fn memory_bytes(&self) -> usize {
-        let Self { rows, runs, parts } = self;
-        size_of_val(&**rows) + size_of_val(&**runs) + size_of_val(&**parts)
+        self.lines.memory_bytes() + size_of_val(&*self.parts)
     }
 
     /// Shuts the bridges of all parts but part 0 in rows of the map.
@@ -220,7 +266,7 @@ impl RunGraph {
                 above
             } else {
                 let [inner, outer] = [v, parent].map(|v| self.vertices[v as usize].run);
-                parts.push(Part { parent: above, inner, outer });
+                parts.push(Part { parent: above, link: Link::Bridge, inner, outer });
                 parts.len() as u32
             };
         }
