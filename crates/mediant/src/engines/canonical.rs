@@ -3,15 +3,17 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Placement};
+use mediant_grid::{GridGraph, Interrupt, Placement};
+use mediant_moves::FiniteK;
 #[cfg(feature = "publications")]
 use mediant_search::PaperCanonical;
 use mediant_search::{Canonical, Pruning, parts::NodeStore};
 
-use super::{Boxed, EngineIndex, Source, boxed, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, shared, with_options};
 #[cfg(feature = "publications")]
 use crate::option::Variant;
 use crate::{
+    change::Change,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
@@ -22,6 +24,7 @@ use crate::{
     },
     setup_error::SetupError,
     shared_rules::{self, Shared},
+    space::PlacementOfSpace,
 };
 
 /// Options of canonical A*.
@@ -89,7 +92,7 @@ impl<P: Shared> CanonicalIndex<P> {
     }
 }
 
-impl<P: Placement> EngineIndex for CanonicalIndex<P> {
+impl<P: PlacementOfSpace> EngineIndex for CanonicalIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
         Ok(match &self.rule {
@@ -121,5 +124,22 @@ impl<P: Placement> EngineIndex for CanonicalIndex<P> {
             #[cfg(feature = "publications")]
             Rule::AsPublished => 0,
         }
+    }
+
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let k = self.graph.k();
+        let graph = P::layers(change.after(), Engine::Canonical)?.graph(k)?;
+        let rule = match &self.rule {
+            // Then the rule has tables of the map.
+            Rule::Pruning(_) if k > FiniteK::N8 => return Ok(None),
+            Rule::Pruning(_) => Rule::Pruning(shared_rules::pruning(graph, interrupt)?),
+            #[cfg(feature = "publications")]
+            Rule::AsPublished => Rule::AsPublished,
+        };
+        shared(Ok(Self { graph: Arc::clone(graph), rule, heuristic: self.heuristic })).map(Some)
     }
 }

@@ -2,24 +2,27 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Placement};
+use mediant_grid::{GridGraph, Interrupt, Placement};
 #[cfg(feature = "publications")]
 use mediant_search::SquaredEuclidean;
 use mediant_search::{AStar, parts::NodeStore};
 #[cfg(feature = "all-engines")]
 use mediant_search::{Euclidean, Hk, Wavefront, Zero};
 
-use super::{Boxed, EngineIndex, boxed, with_options};
+use super::{Boxed, EngineIndex, boxed, shared, with_options};
+#[cfg(not(feature = "all-engines"))]
+use crate::heuristic::Admissible;
 use crate::{
+    change::Change,
     configured::ConfiguredEngine,
+    engine::Engine,
     error::Error,
     option::{
         HeuristicName,
         slot::{Options, Slot},
     },
+    space::PlacementOfSpace,
 };
-#[cfg(not(feature = "all-engines"))]
-use crate::{engine::Engine, heuristic::Admissible};
 
 /// Options of a search that takes only a heuristic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -86,7 +89,7 @@ impl<P: Placement> GridSearchIndex<P> {
     }
 }
 
-impl<P: Placement> EngineIndex for GridSearchIndex<P> {
+impl<P: PlacementOfSpace> EngineIndex for GridSearchIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
         match self.engine {
             GridSearch::AStar(name) => self.by_heuristic(name),
@@ -112,5 +115,10 @@ impl<P: Placement> EngineIndex for GridSearchIndex<P> {
             (GridSearch::Wavefront, ConfiguredEngine::Wavefront) => Self::wavefront(&self.graph),
             _ => return Ok(None),
         })
+    }
+
+    fn repaired(&self, change: &Change, _: &Interrupt) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let graph = P::layers(change.after(), Engine::AStar)?.graph(self.graph.k())?;
+        shared(Self::new(graph, self.engine)).map(Some)
     }
 }

@@ -4,19 +4,21 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VertexId};
+use mediant_grid::{Change as GridChange, GridGraph, Interrupt, Interrupted, Placement, VertexId};
+use mediant_moves::FiniteK;
 use mediant_search::{
     Pruning,
     parts::{BlockFinder, JumpFinder, JumpPointSearch, NodeStore, StepwiseFinder},
 };
 
-use super::{Boxed, EngineIndex, Source, boxed, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, shared, with_options};
 #[cfg(feature = "publications")]
 use crate::option::{
     published::{JUMP_LIMIT, KEEP_INTERMEDIATE},
     slot::Field,
 };
 use crate::{
+    change::Change,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
@@ -27,6 +29,7 @@ use crate::{
         slot::{Options, Slot},
     },
     shared_rules::{self, Shared},
+    space::PlacementOfSpace,
 };
 
 /// Options of JPS, scanning vertex by vertex or block by block.
@@ -81,6 +84,16 @@ pub(super) trait EngineFinder<P: Placement>: JumpFinder<P> + Clone + Send + Sync
     /// The memory that it uses, in bytes.
     fn memory_bytes(&self) -> usize;
 
+    /// The finder on the grid graph after a change of the map; `None` if it must be made anew.
+    fn repaired(
+        &self,
+        _on: (&GridGraph<P>, &Pruning<P>),
+        _change: &GridChange,
+        _interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Error> {
+        Ok(None)
+    }
+
     /// The bytes of a saved index; `None` for an engine whose index is not saved.
     fn to_bytes(&self, _interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
         Ok(None)
@@ -122,7 +135,7 @@ impl<P: Placement, J: EngineFinder<P>> JumpIndex<P, J> {
     }
 }
 
-impl<P: Placement, J: EngineFinder<P> + 'static> EngineIndex for JumpIndex<P, J> {
+impl<P: PlacementOfSpace, J: EngineFinder<P> + 'static> EngineIndex for JumpIndex<P, J> {
     fn search(&self) -> Result<Boxed, Error> {
         let (graph, pruning) = (Arc::clone(&self.graph), Arc::clone(&self.pruning));
         let search = JumpPointSearch::with_finder(graph, pruning, self.finder.clone(), self.heuristic)?;
@@ -146,6 +159,22 @@ impl<P: Placement, J: EngineFinder<P> + 'static> EngineIndex for JumpIndex<P, J>
     fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
         self.finder.to_bytes(interrupt)
     }
+
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let k = self.graph.k();
+        if k > FiniteK::N8 {
+            // The pruning rule has tables of the map.
+            return Ok(None);
+        }
+        let graph = P::layers(change.after(), J::ENGINE)?.graph(k)?;
+        let pruning = shared_rules::pruning(graph, interrupt)?;
+        let finder = self.finder.repaired((graph, &pruning), change.of_grid(), interrupt)?;
+        finder.map(|finder| shared(Self::new(graph, pruning, finder, self.own))).transpose()
+    }
 }
 
 impl<P: Placement> EngineFinder<P> for StepwiseFinder {
@@ -158,6 +187,15 @@ impl<P: Placement> EngineFinder<P> for StepwiseFinder {
     fn memory_bytes(&self) -> usize {
         0
     }
+
+    fn repaired(
+        &self,
+        _on: (&GridGraph<P>, &Pruning<P>),
+        _change: &GridChange,
+        _interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Error> {
+        Ok(Some(Self))
+    }
 }
 
 impl<P: Placement> EngineFinder<P> for BlockFinder {
@@ -169,5 +207,14 @@ impl<P: Placement> EngineFinder<P> for BlockFinder {
 
     fn memory_bytes(&self) -> usize {
         self.memory_bytes()
+    }
+
+    fn repaired(
+        &self,
+        (graph, pruning): (&GridGraph<P>, &Pruning<P>),
+        change: &GridChange,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Error> {
+        Ok(Some(self.repaired(graph, pruning, change, interrupt)?))
     }
 }

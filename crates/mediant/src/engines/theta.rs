@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Placement};
+use mediant_grid::{GridGraph, Interrupt, Placement};
 use mediant_search::{LazyThetaStar, ThetaStar};
 
-use super::{Boxed, EngineIndex, boxed, grid_search::GuidedOptions, with_options};
-use crate::{configured::ConfiguredEngine, engine::Engine, error::Error, heuristic::Admissible};
+use super::{Boxed, EngineIndex, boxed, grid_search::GuidedOptions, shared, with_options};
+use crate::{
+    change::Change, configured::ConfiguredEngine, engine::Engine, error::Error, heuristic::Admissible,
+    space::PlacementOfSpace,
+};
 
 /// A grid graph, and which of the engines searches it.
 pub(super) struct ThetaIndex<P: Placement> {
@@ -29,7 +32,7 @@ impl<P: Placement> ThetaIndex<P> {
     }
 }
 
-impl<P: Placement> EngineIndex for ThetaIndex<P> {
+impl<P: PlacementOfSpace> EngineIndex for ThetaIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
         Ok(match self.is_lazy {
@@ -48,5 +51,10 @@ impl<P: Placement> EngineIndex for ThetaIndex<P> {
             (true, ConfiguredEngine::LazyTheta(own)) => Self::lazy(&self.graph, own),
             _ => return Ok(None),
         })
+    }
+
+    fn repaired(&self, change: &Change, _: &Interrupt) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let graph = P::layers(change.after(), Engine::Theta)?.graph(self.graph.k())?;
+        shared(Ok(Self { graph: Arc::clone(graph), ..*self })).map(Some)
     }
 }

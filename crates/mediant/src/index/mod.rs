@@ -65,7 +65,7 @@ pub enum Origin {
     Prepared,
     /// It was read from bytes or a file.
     Loaded,
-    /// It was repaired: only the clusters or segments that an edit of the map touches were made anew.
+    /// It was repaired: only what an edit of the map touches was made anew.
     Repaired,
     /// It is the index of an equal map.
     Unchanged,

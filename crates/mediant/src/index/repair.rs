@@ -6,10 +6,10 @@ use super::{Index, Origin};
 use crate::{change::Change, engines::Source, error::Error, never::NEVER};
 
 impl Index {
-    /// The index for the map after a change. It gives the same answers as one prepared anew; with Anya, paths
-    /// of the same costs. Clusters and segments are repaired where the maps differ, which takes a copy of the
-    /// index besides, and Anya's dead ends by work that follows the change; the other engines' indexes are
-    /// prepared anew. [`origin`](Self::origin) says which it was. This index stays as it is.
+    /// The index for the map after a change, by work that follows the change where the engine's index can be
+    /// repaired, else prepared anew; [`origin`](Self::origin) says which it was. This index stays as it is. In
+    /// which sense a repaired index equals a new one is [told for each
+    /// engine](crate#maps-that-change).
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Origin, Rectangle};

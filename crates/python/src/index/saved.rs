@@ -54,7 +54,8 @@ impl Index {
 
     /// The index for an edited grid.
     ///
-    /// Clusters and segments (``hpa``, ``chpa``) are repaired where the grids differ; the other engines'
+    /// Where jumps lead in blocks (``jps-block``), clusters and segments (``hpa``, ``chpa``) are repaired where
+    /// the grids differ. Engines that search the grid as it is go on with the next one. The other engines'
     /// indexes are prepared anew. `origin` says which it was. This index stays as it is.
     ///
     /// Parameters

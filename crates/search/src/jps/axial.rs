@@ -14,12 +14,12 @@
 //! at every scan takes 5 to 7.5 ns (`docs/measurements/search.md`).
 
 use mediant_grid::{
-    BitMatrix, CornerRule, DiagonalGap, GridGraph, Interrupt, Interrupted, Placement, Rules, Vector, Vertex,
-    load,
+    BitMatrix, CornerRule, DiagonalGap, GridGraph, Interrupt, Interrupted, Placement, Rules, Vector,
+    Versioned, Vertex, load,
 };
 use mediant_moves::FiniteK;
 
-use super::DURING;
+use super::{DURING, zone::Zone};
 
 /// Where an axial jump ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,40 @@ pub(crate) struct AxialStops {
     planes: [BitPlane; 4],
     /// For 64 vertices of a line two bits each: both for a vertex that a jump cannot enter, the first for a
     /// jump point, the second for one that is a [dead end](super::dead_ends).
-    words: Box<[[u64; 2]]>,
+    words: Versioned<[u64; 2]>,
+}
+
+/// A vertex as jumps in one direction find it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Finding {
+    /// They go on.
+    Passed,
+    JumpPoint,
+    /// A jump point that is a [dead end](super::dead_ends).
+    DeadEnd,
+    /// They cannot enter it.
+    Blocked,
+}
+
+/// A jump point of the axial jumps in one direction, and whether it is a dead end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct JumpPoint {
+    pub(super) at: Vertex,
+    pub(super) quarter: usize,
+    pub(super) is_dead_end: bool,
+}
+
+/// A vertex that the jumps of a direction find otherwise than before an edit, and the number of its zone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Difference {
+    pub(super) zone: usize,
+    pub(super) at: Vertex,
+    pub(super) quarter: usize,
+}
+
+/// Whether the jumps of a direction go along a column, and whether to larger coordinates.
+const fn direction(quarter: usize) -> (bool, bool) {
+    (quarter.is_multiple_of(2), quarter < 2)
 }
 
 /// Where the bits of one direction are: the bit of vertex (x, y) is at `origin` + `per_x` · x + `per_y` · y,
@@ -150,7 +183,58 @@ impl BitPlane {
         let from_start = bit % across;
         let start = self.origin - 64 * self.words.0 as i64;
         let (line, u) = ((bit / across) as i32, ((from_start - start) * along) as i32);
-        if is_vertical { Vertex::new(line, u) } else { Vertex::new(u, line) }
+        vertex_of(is_vertical, (u, line))
+    }
+
+    /// Calls `visit` with the words that hold the bits of a zone, for jumps in direction `quarter`.
+    #[inline]
+    fn for_each_word(&self, quarter: usize, zone: Zone, mut visit: impl FnMut(LineWord)) {
+        let Zone { first, last } = zone;
+        let (is_vertical, is_forward) = direction(quarter);
+        let (rows, columns) = ((first.y, last.y), (first.x, last.x));
+        let (lines, (low, high)) = if is_vertical { (columns, rows) } else { (rows, columns) };
+        let (from, to, sign) = if is_forward { (low, high, 1) } else { (high, low, -1) };
+        let across = if is_vertical { self.per_x } else { self.per_y };
+        let [mut first, mut last] = [from, to].map(|u| self.place(vertex_of(is_vertical, (u, lines.0))));
+        for line in lines.0..=lines.1 {
+            for word in first >> 6..=last >> 6 {
+                let bits = !0 << first.saturating_sub(64 * word) & !0 >> (63 - (last - 64 * word).min(63));
+                let u = from + sign * ((64 * word) as i64 - first as i64) as i32;
+                visit(LineWord { quarter, word: word as usize, bits, place: (u, line) });
+            }
+            [first, last] = [first, last].map(|place| place.wrapping_add_signed(across));
+        }
+    }
+}
+
+/// A vertex by its place in its line, and its line.
+const fn vertex_of(is_vertical: bool, (u, line): (i32, i32)) -> Vertex {
+    if is_vertical { Vertex::new(line, u) } else { Vertex::new(u, line) }
+}
+
+/// A word of a line of a plane.
+#[derive(Clone, Copy, Debug)]
+struct LineWord {
+    quarter: usize,
+    word: usize,
+    /// The bits that are looked at.
+    bits: u64,
+    /// The vertex of the lowest bit, which may lie outside of the map: its place in the line, and the line.
+    place: (i32, i32),
+}
+
+impl LineWord {
+    /// Calls `visit` with the vertices of some of its bits, and with the bits.
+    #[inline]
+    fn for_each(self, bits: u64, mut visit: impl FnMut(Vertex, u64)) {
+        let ((is_vertical, is_forward), (u, line)) = (direction(self.quarter), self.place);
+        let mut left = bits & self.bits;
+        while left != 0 {
+            let bit = left.trailing_zeros() as i32;
+            let u = if is_forward { u + bit } else { u - bit };
+            visit(vertex_of(is_vertical, (u, line)), 1 << bit);
+            left &= left - 1;
+        }
     }
 }
 
@@ -177,7 +261,7 @@ impl AxialStops {
         let rule = JumpPointRule::of(graph);
         let mut words = Vec::with_capacity(Self::words(graph));
         let mut plane = |quarter: usize| {
-            let (vertical, forward) = (quarter.is_multiple_of(2), quarter < 2);
+            let (vertical, forward) = direction(quarter);
             let (matrix, length, lines) =
                 if vertical { (grid.columns(), height, width) } else { (grid.rows(), width, height) };
             let first = 64 * words.len() as i64;
@@ -187,6 +271,8 @@ impl AxialStops {
                 words.extend((0..per_line as i32).map(|word| {
                     let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
                     let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
+                    // What is read beyond the end of the line is no part of it.
+                    let dead = dead | u64::MAX.checked_shl(length - 64 * word as u32).unwrap_or(0);
                     [jump | dead, dead]
                 }));
             }
@@ -198,7 +284,77 @@ impl AxialStops {
         };
         let planes = [plane(0)?, plane(1)?, plane(2)?, plane(3)?];
         words.push([!0; 2]);
-        Ok(Self { planes, words: words.into_boxed_slice() })
+        Ok(Self { planes, words: words.into() })
+    }
+
+    /// The planes of a grid graph of the same size, on which jumps may find the vertices of these zones
+    /// otherwise, and no others. No jump point of a zone is a dead end. With those that they find otherwise,
+    /// in the order of the zones.
+    pub(super) fn with_zones<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        zones: &[Zone],
+        interrupt: &Interrupt,
+    ) -> Result<(Self, Vec<Difference>), Interrupted> {
+        let (grid, rule) = (graph.grid(), JumpPointRule::of(graph));
+        let (mut edit, mut differences) = (self.words.edit(), Vec::new());
+        for (zone, &vertices) in zones.iter().enumerate() {
+            interrupt.check(DURING)?;
+            for quarter in 0..4 {
+                let (vertical, forward) = direction(quarter);
+                let matrix = if vertical { grid.columns() } else { grid.rows() };
+                self.planes[quarter].for_each_word(quarter, vertices, |line| {
+                    let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, line.place, forward);
+                    let [one, other] = edit.words()[line.word];
+                    let with = |was: u64, is: u64| was & !line.bits | is & line.bits;
+                    let (is, was) = ([with(one, jump | dead), with(other, dead)], self.words[line.word]);
+                    edit.set(line.word, is);
+                    line.for_each(was[0] ^ is[0] | was[1] ^ is[1], |at, _| {
+                        differences.push(Difference { zone, at, quarter });
+                    });
+                });
+            }
+        }
+        Ok((Self { planes: self.planes, words: edit.finish() }, differences))
+    }
+
+    /// These planes, where jump points may be dead ends or not.
+    pub(super) fn with_jump_points(self, points: &[JumpPoint]) -> Self {
+        let mut edit = self.words.into_edit();
+        for &JumpPoint { at, quarter, is_dead_end } in points {
+            let place = self.planes[quarter].place(at);
+            let (word, bit) = ((place >> 6) as usize, 1 << (place & 63));
+            let [one, other] = edit.words()[word];
+            edit.set(word, if is_dead_end { [one & !bit, other | bit] } else { [one | bit, other & !bit] });
+        }
+        Self { planes: self.planes, words: edit.finish() }
+    }
+
+    /// Calls `visit` with the jump points of a direction in a zone, or with the dead ends alone.
+    pub(super) fn for_each_jump_point(
+        &self,
+        (zone, quarter): (Zone, usize),
+        dead_ends_alone: bool,
+        mut visit: impl FnMut(JumpPoint),
+    ) {
+        self.planes[quarter].for_each_word(quarter, zone, |line| {
+            let [one, other] = self.words[line.word];
+            let bits = if dead_ends_alone { other & !one } else { one ^ other };
+            line.for_each(bits, |at, bit| visit(JumpPoint { at, quarter, is_dead_end: other & bit != 0 }));
+        });
+    }
+
+    /// A vertex of the map as jumps in a direction find it in these planes, and in others of the same size.
+    #[inline]
+    pub(super) fn findings(&self, other: &Self, at: Vertex, quarter: usize) -> [Finding; 2] {
+        let place = self.planes[quarter & 3].place(at);
+        let (word, bit) = ((place >> 6) as usize, place & 63);
+        [self, other].map(|stops| match stops.words[word].map(|word| word >> bit & 1 == 1) {
+            [false, false] => Finding::Passed,
+            [true, false] => Finding::JumpPoint,
+            [false, true] => Finding::DeadEnd,
+            [true, true] => Finding::Blocked,
+        })
     }
 
     /// The axial jump from a vertex of the map in direction number `quarter` < 4: (0, 1), (1, 0), (0, −1),
@@ -257,7 +413,9 @@ impl AxialStops {
                 dead_ends |= u64::from(is_dead_end(self, at)) << bit;
                 jump_points &= jump_points - 1;
             }
-            self.words[word] = [one & !dead_ends, other | dead_ends];
+            if dead_ends != 0 {
+                self.words.make_mut()[word] = [one & !dead_ends, other | dead_ends];
+            }
         }
         Ok(())
     }
@@ -265,9 +423,7 @@ impl AxialStops {
     /// Whether a vertex is a dead end for jumps in a direction.
     #[cfg(test)]
     pub(super) fn is_dead_end(&self, at: Vertex, quarter: usize) -> bool {
-        let place = self.planes[quarter].place(at);
-        let [one, other] = self.words[(place >> 6) as usize];
-        (other & !one) >> (place & 63) & 1 == 1
+        self.findings(self, at, quarter) == [Finding::DeadEnd; 2]
     }
 
     /// The number of jump points of all directions.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Interrupt, Placement, Vertex, uninterrupted};
+use mediant_grid::{Change, Grid, GridGraph, Identity, Interrupt, Placement, Vertex, uninterrupted};
 use mediant_moves::KError;
 
 use super::{
@@ -12,12 +12,16 @@ use super::{
     error::JumpError,
     finder::{JumpContext, JumpFinder},
     planes::JumpPlanes,
+    repair::{Repair, Stop},
     to_goal::ToGoal,
 };
 use crate::{
     canonical::Pruning,
     successors::{ExpandedNode, KnownPath, Successor},
 };
+
+/// Its name in errors.
+const FINDER: &str = "the finder of jumps";
 
 /// Makes jumps by words of 64 vertices, for k ≤ 3. Takes two and a half bytes a vertex, which clones share.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,6 +67,43 @@ impl BlockFinder {
     pub(super) fn with_planes<P: Placement>(graph: &GridGraph<P>, planes: JumpPlanes) -> Self {
         let JumpPlanes { axial, diagonals, reach, .. } = planes;
         Self { identity: graph.identity(), axial: Arc::new(axial), diagonals: Arc::new(diagonals), reach }
+    }
+
+    /// The finder of the grid graph after a change of the map, by the pruning rule of that grid graph. It
+    /// works as long as the change alters where jumps lead, and prepares a new finder where that would be
+    /// quicker.
+    ///
+    /// It leads to the same costs as a new one. Whether it looks for dead ends was decided when it was made.
+    ///
+    /// # Errors
+    /// [`JumpError::Mismatch`] if the change is not from the map of this finder to that of the grid graph, or
+    /// if the rule was prepared for another one, and [`JumpError::Interrupted`].
+    pub fn repaired<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Self, JumpError> {
+        pruning.check(graph)?;
+        let on = |grid: &Grid| Identity { map: Some(grid.id()), ..self.identity };
+        self.identity.check(FINDER, ("the map before the change", on(change.before())))?;
+        on(change.after()).check("the map after the change", ("the grid graph", graph.identity()))?;
+        if change.before().id() == change.after().id() {
+            return Ok(self.clone());
+        }
+        let stops = (&*self.axial, &*self.diagonals, self.reach);
+        let follow = |table| Repair::new(graph, table, stops, interrupt).follow(change);
+        match pruning.table().map_or(Err(Stop::TooMuch), follow) {
+            Ok((axial, diagonals)) => Ok(Self {
+                identity: graph.identity(),
+                axial: Arc::new(axial),
+                diagonals: Arc::new(diagonals),
+                reach: self.reach,
+            }),
+            Err(Stop::TooMuch) => Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning, interrupt)?)),
+            Err(Stop::Interrupted(interrupted)) => Err(interrupted.into()),
+        }
     }
 
     pub(super) fn axial_stops(&self) -> &AxialStops {

@@ -126,12 +126,12 @@ pub(super) struct DeadEndRows {
 
 impl DeadEndRows {
     /// For so many columns and rows, with no dead end yet.
-    fn new((width, height): (u32, u32)) -> Self {
+    pub(super) fn new((width, height): (u32, u32)) -> Self {
         let per_row = width.div_ceil(64) as usize;
         Self { rows: [0; 4].map(|_| vec![0; per_row * height as usize]), per_row }
     }
 
-    fn add(&mut self, at: Vertex, quarter: usize) {
+    pub(super) fn add(&mut self, at: Vertex, quarter: usize) {
         self.rows[quarter][at.y as usize * self.per_row + at.x as usize / 64] |= 1 << (at.x % 64);
     }
 

@@ -15,7 +15,7 @@
 //! The planes are computed in rows, 64 vertices at a time, and then turned, 64 × 64 bits at a time. They take
 //! twelve bits a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, VersionEdit, Versioned, Vertex};
 use mediant_moves::FiniteK;
 
 use super::stop_rows::{Leads, StopRows, Stops};
@@ -25,7 +25,7 @@ use crate::canonical::Pruning;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct DiagonalStops {
     planes: [Plane; 4],
-    words: Vec<Stops>,
+    words: Versioned<Stops>,
     lines: u64,
     /// 2⁴⁰ / `lines`, rounded up.
     reciprocal: u64,
@@ -78,27 +78,33 @@ impl DiagonalStops {
         let words = Self::words(graph);
         let mut all = Self {
             planes: [Plane::default(); 4],
-            words: vec![[0; 3]; words],
+            words: vec![[0; 3]; words].into(),
             lines: u64::from(lines),
             reciprocal: (1 << 40) / u64::from(lines) + 1,
         };
+        let to = all.words.make_mut();
         for (i, &index) in odd.iter().enumerate() {
             let first = i * per_plane;
             all.planes[i] =
                 Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
             StopRows::new(graph, pruning, index, leads).for_each_word(interrupt, |line, word, stops| {
-                let known = &mut all.words[first + line * per_line + word];
+                let known = &mut to[first + line * per_line + word];
                 known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
             })?;
-            for line in all.words[first..first + per_plane].chunks_exact_mut(per_line) {
+            for line in to[first..first + per_plane].chunks_exact_mut(per_line) {
                 if let Some(last) = line.last_mut() {
                     // Beyond the end of the line.
                     last[0] |= !0 << (length % 64);
                 }
             }
         }
-        all.words[words - 1][0] = !0;
+        to[words - 1][0] = !0;
         Ok(all)
+    }
+
+    /// Begins an edit of these planes, which stay as they are.
+    pub(super) fn edit(&self) -> DiagonalEdit<'_> {
+        DiagonalEdit { before: self, words: self.words.edit() }
     }
 
     /// The place of the bit of a vertex of the map for jumps by the odd move `index`.
@@ -153,6 +159,31 @@ impl DiagonalStops {
 
     pub(crate) fn memory_bytes(&self) -> usize {
         size_of_val(&*self.words)
+    }
+}
+
+/// The next version of planes while it is made.
+pub(super) struct DiagonalEdit<'s> {
+    before: &'s DiagonalStops,
+    words: VersionEdit<Stops>,
+}
+
+impl DiagonalEdit<'_> {
+    /// Changes what is said of a vertex of the map and an odd move: whether it stops the jump, and whether the
+    /// first and the second axial jump come to a jump point from there.
+    pub(super) fn change(&mut self, at: Vertex, index: usize, next: impl FnOnce([bool; 3]) -> [bool; 3]) {
+        let place = self.before.place(at, index);
+        let (word, bit) = ((place >> 6) as usize, place & 63);
+        let known = self.words.words()[word];
+        let stops = next(known.map(|word| word >> bit & 1 == 1));
+        let with = |i: usize| known[i] & !(1 << bit) | u64::from(stops[i]) << bit;
+        self.words.set(word, [with(0), with(1), with(2)]);
+    }
+
+    /// The next version.
+    pub(super) fn finish(self) -> DiagonalStops {
+        let &DiagonalStops { planes, lines, reciprocal, .. } = self.before;
+        DiagonalStops { planes, words: self.words.finish(), lines, reciprocal }
     }
 }
 

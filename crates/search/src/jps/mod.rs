@@ -68,10 +68,12 @@ mod finder;
 mod lists;
 mod planes;
 mod planner;
+mod repair;
 mod stop_rows;
 mod table;
 mod table_finder;
 mod to_goal;
+mod zone;
 
 #[cfg(test)]
 mod tests;

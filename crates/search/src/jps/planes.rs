@@ -66,7 +66,7 @@ impl JumpPlanes {
         let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
         if let Some(table) = table {
             let dead_ends =
-                DeadEndFinder { graph, table, leads: &leads, reach }.mark(&mut axial, interrupt)?;
+                DeadEndFinder { graph, table, leads: Some(&leads), reach }.mark(&mut axial, interrupt)?;
             if !dead_ends.is_empty() {
                 let live = Leads::new(graph, &dead_ends, interrupt)?;
                 let diagonals = DiagonalStops::new(graph, pruning, [&leads, &live], interrupt)?;

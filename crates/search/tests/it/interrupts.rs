@@ -3,8 +3,8 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant_grid::{
-    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Interrupt, Interrupted, StoppedBy,
-    Vertex,
+    Centers, Change, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Interrupt, Interrupted,
+    StoppedBy, Vertex,
 };
 use mediant_moves::FiniteK;
 use mediant_oracle::{Rng, caves, check_interrupts, maze, noise};
@@ -68,6 +68,18 @@ fn jumps_stop() {
             let read = |i: &Interrupt| JumpTable::from_bytes_interruptible(&graph, &bytes, i);
             check_interrupts("a table's bytes", 6 * ROWS, read, of_jump);
         }
+    }
+}
+
+#[test]
+fn repairs_of_jumps_stop() {
+    for grid in grids() {
+        let change = Change::new(Arc::clone(&grid)).edit_cells((0..40).map(|i| (5 * i, 3 * i, i % 2 == 0)));
+        let [before, after] = [&grid, change.after()].map(|grid| graph(grid, 3));
+        let [old, new] = [&before, &after].map(Pruning::new);
+        let finder = BlockFinder::new(&before, &old).expect("k ≤ 3");
+        let repaired = |i: &Interrupt| finder.repaired(&after, &new, &change, i);
+        check_interrupts("a repair of planes", 20, repaired, of_jump);
     }
 }
 

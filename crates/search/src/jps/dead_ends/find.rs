@@ -15,7 +15,8 @@ const DEPTH: u32 = 4;
 pub(crate) struct DeadEndFinder<'g, P: Placement> {
     pub(crate) graph: &'g GridGraph<P>,
     pub(crate) table: &'g PatternTable,
-    pub(crate) leads: &'g Leads,
+    /// From where jumps come to a jump point; `None` where only few dead ends are looked for.
+    pub(crate) leads: Option<&'g Leads>,
     pub(crate) reach: u32,
 }
 
@@ -43,7 +44,7 @@ impl<P: Placement> DeadEndFinder<'_, P> {
     }
 
     /// Whether a jump point of the axial jumps in direction `quarter` is a dead end; false outside the map.
-    fn holds(&self, axial: &AxialStops, at: Vertex, quarter: usize) -> bool {
+    pub(crate) fn holds(&self, axial: &AxialStops, at: Vertex, quarter: usize) -> bool {
         self.graph.is_free(at)
             && self.ends(axial, at, quarter << (self.graph.k().get() - 2), self.reach, DEPTH)
     }
@@ -79,7 +80,7 @@ impl<P: Placement> DeadEndFinder<'_, P> {
                 return false;
             }
             for even in beside {
-                let leads = self.leads.any(self.quarter(even), at);
+                let leads = self.leads.is_none_or(|leads| leads.any(self.quarter(even), at));
                 if leads && !self.axial_ends(axial, at, even, reach - gone, depth) {
                     return false;
                 }
