@@ -8,7 +8,7 @@ use mediant_grid::{GridGraph, Placement};
 use mediant_search::PaperCanonical;
 use mediant_search::{Canonical, Pruning, parts::NodeStore};
 
-use super::{Boxed, EngineIndex, Source, boxed, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, following, with_options};
 #[cfg(feature = "publications")]
 use crate::option::Variant;
 use crate::{
@@ -99,6 +99,20 @@ impl<P: Placement> EngineIndex for CanonicalIndex<P> {
             #[cfg(feature = "publications")]
             Rule::AsPublished => boxed(PaperCanonical::new(graph, self.heuristic)),
         })
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        let graph = Arc::clone(&self.graph);
+        match &self.rule {
+            Rule::Pruning(pruning) => following(search, |search: &mut Canonical<_, Admissible, P>| {
+                search.follow(graph, Arc::clone(pruning))
+            }),
+            #[cfg(feature = "publications")]
+            Rule::AsPublished => following(search, |search: &mut PaperCanonical<_, Admissible>| {
+                search.follow(graph);
+                Ok::<_, Error>(())
+            }),
+        }
     }
 
     fn scratch_bytes(&self) -> usize {

@@ -7,6 +7,7 @@ mod described;
 mod door;
 mod exceptions;
 mod field;
+mod follow;
 mod goals;
 mod guesses;
 mod hierarchies;

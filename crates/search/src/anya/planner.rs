@@ -104,8 +104,32 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     /// # Errors
     /// [`Mismatch`] for the dead ends of another map or rule of motion.
     pub fn without(self, dead_ends: Arc<DeadEnds>) -> Result<Self, Mismatch> {
-        dead_ends.identity().check("the dead ends", ("the free space", self.space.identity()))?;
+        Self::check(&dead_ends, &self.space)?;
         Ok(Self { opened: Some(Opened::new(dead_ends)), ..self })
+    }
+
+    fn check(dead_ends: &DeadEnds, space: &FreeSpace<Corners>) -> Result<(), Mismatch> {
+        dead_ends.identity().check("the dead ends", ("the free space", space.identity()))
+    }
+
+    /// Continues on another map, [`without`](Self::without) its dead ends if they are given. The search that
+    /// was begun last is forgotten. The scratch memory is kept if the map has the same size.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the dead ends of another map or rule of motion. Nothing is changed then.
+    pub fn follow(&mut self, space: S, dead_ends: Option<Arc<DeadEnds>>) -> Result<(), Mismatch> {
+        dead_ends.as_ref().map_or(Ok(()), |dead_ends| Self::check(dead_ends, &space))?;
+        self.opened = match (self.opened.take(), dead_ends) {
+            (Some(mut opened), Some(dead_ends)) => {
+                opened.follow(dead_ends);
+                Some(opened)
+            }
+            (_, dead_ends) => dead_ends.map(Opened::new),
+        };
+        self.frontier.fit(space.grid().width() + 1, space.grid().height() + 1);
+        (self.last, self.status) = (None, SearchStatus::default());
+        self.space = space;
+        Ok(())
     }
 
     /// [`without`](Self::without) the dead ends of its map, which are found now.

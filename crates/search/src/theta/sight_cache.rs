@@ -49,6 +49,17 @@ impl SightCache {
         }
     }
 
+    /// Forgets all answers, and takes others on the map of a free space. The memory is kept if that has the
+    /// same size.
+    pub(super) fn follow<P: Placement>(&mut self, space: &FreeSpace<P>) {
+        let (width, height) = P::vertices(space.grid());
+        if self.last == Vertex::new(width as i32 - 1, height as i32 - 1) {
+            self.blocks.fill([BlockSight::UNKNOWN; 2]);
+        } else {
+            *self = Self::new(space);
+        }
+    }
+
     /// The bytes that it takes when it is made.
     pub(super) fn bytes<P: Placement>(space: &FreeSpace<P>) -> usize {
         let (width, height) = P::vertices(space.grid());

@@ -46,6 +46,24 @@ impl Opened {
         Self { dead_ends, rows, open: Vec::new(), of_rows, of_columns }
     }
 
+    /// Continues with other dead ends, and keeps the memory if their map has the same size.
+    pub(in super::super) fn follow(&mut self, dead_ends: Arc<DeadEnds>) {
+        // The next query closes what is open.
+        if Arc::ptr_eq(&self.dead_ends, &dead_ends) {
+            return;
+        }
+        let Self { rows, open, of_rows, of_columns, .. } = self;
+        open.clear();
+        rows.clone_from(&dead_ends.rows);
+        for (opened, parts) in [of_rows, of_columns].into_iter().zip(&dead_ends.parts) {
+            parts.shut(rows);
+            opened.rows.clone_from(&dead_ends.rows);
+            parts.shut(&mut opened.rows);
+            opened.bridges.clear();
+        }
+        self.dead_ends = dead_ends;
+    }
+
     /// The rows of the map without what is closed.
     pub(in super::super) const fn rows(&self) -> &BitMatrix {
         &self.rows
