@@ -3,6 +3,7 @@
 mod clusters;
 mod common;
 mod complete;
+mod follow;
 mod identity;
 mod index;
 mod interrupts;

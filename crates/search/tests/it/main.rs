@@ -9,6 +9,7 @@ mod events;
 mod exact;
 mod exhaustive;
 mod fields;
+mod follow;
 mod heuristics;
 mod identity;
 mod interrupts;
