@@ -174,7 +174,7 @@ fn follows_in_its_memory(space: &Space, index: &Index) {
     let change = space.edit_cells([((1, 2), false)]).expect("a cell of the map");
     let edited = index.repair(&change).expect("its own change");
     let (engine, mut planner) = (index.searched_by(), index.planner());
-    let mut turn = |planner: &mut Planner| {
+    let turn = |planner: &mut Planner| {
         for next in [&edited, index] {
             planner.follow(next).expect("the same setup");
             let answer = planner.find(Query::new((0, 0), (250, 250))).expect("both ends are free");
@@ -186,7 +186,6 @@ fn follows_in_its_memory(space: &Space, index: &Index) {
     turn(&mut planner);
     let bytes = EVER.load(Ordering::Relaxed) - before;
     assert!(bytes < SLACK, "{engine}: {bytes} bytes for following twice");
-    println!("{engine}: {bytes} bytes to follow and find a path, twice");
 }
 
 /// Preparing again, stopped at 10, 50 and 90 % of its questions, keeps no memory.

@@ -9,7 +9,7 @@ impl Index {
     /// The index for the map after a change. It gives the same answers as one prepared anew. Clusters and
     /// segments are repaired where the maps differ, which takes a copy of the index besides; the other
     /// engines' indexes are prepared anew. [`origin`](Self::origin) says which it was. This index stays as it
-    /// is.
+    /// is. Planners [follow](crate::Planner::follow) from the one to the other.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Origin, Rectangle};

@@ -137,9 +137,8 @@ fn a_planner_takes_all_from_the_index() {
     let labels = index("subgoal:any:open");
     let graph = SubgoalOptions { levels: Some(Levels::Contracted), memory: None };
     let graph = labels.space().prepare(ConfiguredEngine::Subgoal(graph)).expect("a graph");
-    let noise = Map::from(mediant_oracle::noise(&mut Rng::new(3), 90, 90, 5));
-    let nothing = noise.space(labels.setup().motion).and_then(|space| space.prepare(Engine::Subgoal));
-    let nothing = nothing.expect("subgoals");
+    let space = map.space(labels.setup().motion).expect("a space");
+    let nothing = space.index_from_bytes(super::labels::nothing(labels.setup(), &map)).expect("an index");
     assert_eq!((labels.searched_by(), nothing.searched_by()), (Engine::Subgoal, Engine::Anya));
     assert_ne!(levels(&labels), levels(&graph));
     let one_path = labels.space().prepare_for_one_path(Engine::Anya).expect("no dead ends");

@@ -104,21 +104,28 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     /// # Errors
     /// [`Mismatch`] for the dead ends of another map or rule of motion.
     pub fn without(self, dead_ends: Arc<DeadEnds>) -> Result<Self, Mismatch> {
-        Self::check(&dead_ends, &self.space)?;
+        dead_ends.identity().check("the dead ends", ("the free space", self.space.identity()))?;
         Ok(Self { opened: Some(Opened::new(dead_ends)), ..self })
     }
 
-    fn check(dead_ends: &DeadEnds, space: &FreeSpace<Corners>) -> Result<(), Mismatch> {
-        dead_ends.identity().check("the dead ends", ("the free space", space.identity()))
+    /// [`without`](Self::without) the dead ends of its map, which are found now.
+    #[must_use]
+    pub fn without_dead_ends(self) -> Self {
+        let opened = Some(Opened::new(Arc::new(DeadEnds::new(&self.space))));
+        Self { opened, ..self }
     }
 
-    /// Continues on another map, [`without`](Self::without) its dead ends if they are given. The search that
-    /// was begun last is forgotten. The scratch memory is kept if the map has the same size.
+    /// Goes on with another map under the same rule, and without its dead ends if some are given, but with the
+    /// scratch memory that this planner has. The last search is forgotten.
     ///
     /// # Errors
-    /// [`Mismatch`] for the dead ends of another map or rule of motion. Nothing is changed then.
+    /// [`Mismatch`] for a free space of another rule, and for dead ends of another map or rule of motion.
     pub fn follow(&mut self, space: S, dead_ends: Option<Arc<DeadEnds>>) -> Result<(), Mismatch> {
-        dead_ends.as_ref().map_or(Ok(()), |dead_ends| Self::check(dead_ends, &space))?;
+        let (mine, identity) = (Identity { map: None, ..self.space.identity() }, space.identity());
+        mine.check("the planner", ("the free space", identity))?;
+        if let Some(dead_ends) = &dead_ends {
+            dead_ends.identity().check("the dead ends", ("the free space", identity))?;
+        }
         self.opened = match (self.opened.take(), dead_ends) {
             (Some(mut opened), Some(dead_ends)) => {
                 opened.follow(dead_ends);
@@ -127,16 +134,8 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
             (_, dead_ends) => dead_ends.map(Opened::new),
         };
         self.frontier.fit(space.grid().width() + 1, space.grid().height() + 1);
-        (self.last, self.status) = (None, SearchStatus::default());
-        self.space = space;
+        (self.space, self.last, self.status) = (space, None, SearchStatus::default());
         Ok(())
-    }
-
-    /// [`without`](Self::without) the dead ends of its map, which are found now.
-    #[must_use]
-    pub fn without_dead_ends(self) -> Self {
-        let opened = Some(Opened::new(Arc::new(DeadEnds::new(&self.space))));
-        Self { opened, ..self }
     }
 
     /// The rows of the map, as far as it is searched.

@@ -95,9 +95,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
         Self { graph, wider, is_wider, heuristic, nodes, open, sight, ends, status, check: PhantomData }
     }
 
-    /// Continues with another grid graph. The search that was begun last is forgotten. The scratch memory is
-    /// kept if the map has the same size; what is remembered of lines of sight is forgotten, half a byte a
-    /// vertex.
+    /// Continues with another grid graph. The search that was begun last is forgotten, and so is what is
+    /// remembered of lines of sight. The scratch memory is kept if the map has the same size.
     pub fn follow(&mut self, graph: G) {
         self.nodes.fit(graph.vertex_count());
         self.sight.follow::<P>(&graph);
