@@ -23,6 +23,11 @@ impl Observer for Pause {
 /// A grid graph with both indexes.
 struct Prepared(Arc<GridGraph<Centers>>, Arc<ClusterGraph>, Arc<SegmentGraph>);
 
+/// The vertices of all maps, and some beyond.
+fn vertices() -> impl Iterator<Item = Vertex> {
+    (0..60).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y)))
+}
+
 /// Follows to each map in turn, from a search that is paused. Returns the number of searches compared.
 fn check<S: Planner>(
     maps: &[Prepared],
@@ -36,8 +41,9 @@ fn check<S: Planner>(
         for query in random_queries(rng, map.0.grid(), 2) {
             _ = planner.solve(query);
             if planner.begin(query, &mut ()).is_ok() {
-                _ = planner.proceed(&mut Pause(1 + rng.below(9)));
-                _ = planner.path_to(query.goal);
+                _ = planner.proceed(&mut Pause(2 + rng.below(9)));
+                // Paths of an unfinished search take scratch memory of their own.
+                vertices().for_each(|at| _ = planner.path_to(at));
                 // Outside the map nothing is reached.
                 assert_eq!(planner.path_to(Vertex::new(-1, -9)), None, "seed {seed}");
                 assert_eq!(planner.path_to(Vertex::new(1 << 20, 3)), None, "seed {seed}");
@@ -46,7 +52,7 @@ fn check<S: Planner>(
         follow(&mut planner, next);
         let mut fresh = new(next);
         assert_eq!(planner.identity(), fresh.identity());
-        for at in (0..60).flat_map(|y| (0..60).map(move |x| Vertex::new(x, y))) {
+        for at in vertices() {
             assert!(planner.path_to(at).is_none(), "{at}, seed {seed}");
         }
         assert_eq!(planner.proceed(&mut ()), Ok(SearchStatus::Unreachable), "seed {seed}");
@@ -57,6 +63,10 @@ fn check<S: Planner>(
             let said = || describe_query(&next.0, query, seed);
             assert_eq!((answer, counters[0]), (expected, counters[1]), "{}", said());
             searched += usize::from(counters[0].expanded > 0);
+            assert_eq!(planner.begin(query, &mut ()), fresh.begin(query, &mut ()), "{}", said());
+            let paused = [&mut planner, &mut fresh].map(|planner| planner.proceed(&mut Pause(4)));
+            assert_eq!(paused[0], paused[1], "{}", said());
+            vertices().for_each(|at| assert_eq!(planner.path_to(at), fresh.path_to(at), "{at}, {}", said()));
         }
     }
     searched
