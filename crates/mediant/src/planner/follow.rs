@@ -11,9 +11,9 @@ impl Planner {
     /// search that was begun before is forgotten.
     ///
     /// A new planner touches new scratch memory, which takes longer than many queries. One that follows keeps
-    /// its own where the map has the same size, and is ready within a microsecond. (Theta\* forgets its lines
-    /// of sight, Anya copies the map without dead ends: some microseconds on 512 × 512 cells.) Where the new
-    /// index searches in another way, as subgoals do that keep nothing, the search is made anew.
+    /// its own where the map has the same size, and is ready within a microsecond; Theta\* and Anya, which
+    /// remember more of a map, take some microseconds on 512 × 512 cells. Where the new index searches in
+    /// another way, as subgoals do that keep nothing, the search is made anew.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Rectangle};
