@@ -31,12 +31,25 @@ impl BitIndex {
 /// The frame of a map is blocked, that of a set of vertices is empty. Each row is followed by at least one
 /// bit of the frame, which is also the bit before the next row. One row of the frame lies above the first row
 /// and one below the last, and one word before and one after all rows.
-#[derive(Clone, PartialEq, Eq)]
+#[derive(PartialEq, Eq)]
 pub struct BitMatrix {
     words: Versioned<u64>,
     width: u32,
     height: u32,
     words_per_row: u32,
+}
+
+impl Clone for BitMatrix {
+    fn clone(&self) -> Self {
+        Self { words: self.words.clone(), ..*self }
+    }
+
+    /// The same in the memory of this one, if it has the same size.
+    fn clone_from(&mut self, other: &Self) {
+        let Self { words, width, height, words_per_row } = self;
+        words.clone_from(&other.words);
+        (*width, *height, *words_per_row) = (other.width, other.height, other.words_per_row);
+    }
 }
 
 /// Shows the sides alone: the bits of a map would fill pages.

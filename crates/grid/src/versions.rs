@@ -233,6 +233,15 @@ impl<W: Clone> Clone for Versioned<W> {
     fn clone(&self) -> Self {
         self.words.to_vec().into()
     }
+
+    /// The same in the memory of this one, if it has as many words.
+    fn clone_from(&mut self, other: &Self) {
+        if self.words.len() == other.words.len() {
+            self.make_mut().clone_from_slice(other);
+        } else {
+            *self = other.clone();
+        }
+    }
 }
 
 impl<W: PartialEq> PartialEq for Versioned<W> {
@@ -294,6 +303,23 @@ mod tests {
             }
             assert!(held.iter().all(|(version, words)| **version == **words), "step {step}");
         }
+    }
+
+    #[test]
+    fn a_copy_takes_the_memory_of_another_and_is_no_version() {
+        let first = Versioned::from(vec![1, 2, 3]);
+        let mut edit = first.edit();
+        edit.set(1, 9);
+        let mut copy = edit.finish();
+        let place = copy.as_ptr();
+        copy.clone_from(&first);
+        assert_eq!((&*copy, copy.as_ptr()), (&[1, 2, 3][..], place));
+        copy.clone_from(&Versioned::from(vec![4]));
+        assert_eq!(*copy, [4]);
+        // What the copy had been is no spare of the line.
+        drop(copy);
+        let next = first.edit();
+        assert_eq!(next.words(), [1, 2, 3]);
     }
 
     #[test]

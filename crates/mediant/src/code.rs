@@ -175,6 +175,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::DetourAsPublished { .. }
         | SetupError::MemoryWithoutLabels { .. }
         | SetupError::OtherEngine { .. }
+        | SetupError::OtherPlanner { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
         SetupError::Motion { .. } => ErrorCode::Motion,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,

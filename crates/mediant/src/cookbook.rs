@@ -200,19 +200,21 @@
 //! # Doors that open and close
 //!
 //! A map never changes: an edit makes the next one, and an index is repaired for it. Clusters (`hpa`) are
-//! repaired around the door alone.
+//! repaired around the door alone, and a planner follows with the memory that it has.
 //!
 //! ```
 //! use mediant::{Engine, Map, Motion, Rectangle};
 //!
 //! let mut space = Map::from_fn(64, 64, |x, _| x == 30)?.space(Motion::default())?;
 //! let mut index = space.prepare(Engine::Hpa)?;
+//! let mut planner = index.planner();
 //! let door = Rectangle::new(30, 20, 1, 2);
 //! for is_closed in [false, true] {
 //!     let change = space.edit(door, |_, _| is_closed)?;
 //!     index = index.repair(&change)?;
 //!     space = change.after().clone();
-//!     let path = index.planner().path((0, 0), (60, 50))?;
+//!     planner.follow(&index)?;
+//!     let path = planner.path((0, 0), (60, 50))?;
 //!     println!("{:?}: {}", index.origin(), if path.is_some() { "a way" } else { "no way" });
 //!     assert_eq!(path.is_none(), is_closed);
 //! }

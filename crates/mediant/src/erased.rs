@@ -1,12 +1,16 @@
 //! Searches whose type is erased.
 
+use std::any::Any;
+
 use mediant_grid::{Identity, Vertex};
 use mediant_search::{Answer, Ends, Guarantee, Observer, Path, Planner as Search, QueryError, SearchStatus};
 
 /// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: without
 /// an observer, and in steps with one. An observed search costs dynamic calls for each event; at once it is
 /// made by [`Dynamic`], of steps without a pause.
-pub(crate) trait Erased {
+///
+/// It is [`Any`], so that an index can tell whether a search is of the type that it makes.
+pub(crate) trait Erased: Any {
     /// [`Search::solve`].
     fn solve(&mut self, query: Ends) -> Result<Answer, QueryError>;
 
@@ -37,7 +41,7 @@ pub(crate) trait Erased {
     fn identity(&self) -> Identity;
 }
 
-impl<S: Search> Erased for S {
+impl<S: Search + Any> Erased for S {
     fn solve(&mut self, query: Ends) -> Result<Answer, QueryError> {
         Search::solve(self, query)
     }

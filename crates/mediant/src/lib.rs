@@ -71,7 +71,8 @@
 //!
 //! Each thread makes a planner of its own from one index, or all share [`Planners`]. Maps, spaces and indexes
 //! never change, their clones share them, and all threads may use them. An edit makes another map
-//! ([`Map::set`], [`Map::edit`]), for which [`Index::repair`] makes the next index.
+//! ([`Map::set`], [`Map::edit`]), for which [`Index::repair`] makes the next index. Planners
+//! [follow](Planner::follow) to it, and keep their scratch memory.
 //!
 //! # Errors
 //!

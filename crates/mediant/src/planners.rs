@@ -19,6 +19,10 @@ use crate::{error::Error, index::Index, planner::Planner};
 /// It is `Send` and `Sync`, and its methods take `&self`: it can be a `static`, stand in an `Arc`, or be a
 /// resource of Bevy, where a [`Planner`] cannot.
 ///
+/// Its index never changes while it is shared, so that a query or a batch has one answer. After an edit of the
+/// map its owner lets it [`follow`](Self::follow); who shares it makes the next one, to which this one
+/// [hands its planners on](Self::hand_on).
+///
 /// ```
 /// use mediant::{Ends, Engine, K, Map, Motion, Planners};
 ///
@@ -111,6 +115,48 @@ impl Planners {
         let result = work(&mut planner);
         self.idle().push(planner);
         result
+    }
+
+    /// Continues on another index of the same engine and motion: the one for the map after an edit. Its idle
+    /// planners [follow](Planner::follow), and keep their scratch memory.
+    ///
+    /// # Errors
+    /// As for [`Planner::follow`], but that a planner for which there is no room is given up. Nothing is
+    /// changed then.
+    pub fn follow(&mut self, index: &Index) -> Result<(), Error> {
+        *self = self.hand_on(index)?;
+        Ok(())
+    }
+
+    /// Planners on another index of the same engine and motion, to which the idle ones of these
+    /// [follow](Planner::follow): for who shares these with threads that still ask. These stay on their index,
+    /// and make planners anew if they are asked again.
+    ///
+    /// ```
+    /// use std::sync::{Arc, RwLock};
+    /// use mediant::{Engine, Map, Motion, Planners, Rectangle};
+    ///
+    /// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::default())?;
+    /// let planners = RwLock::new(Arc::new(Planners::new(space.prepare(Engine::JpsBlock)?)));
+    /// // Any thread takes the planners that are there when it asks.
+    /// let now = || Arc::clone(&planners.read().unwrap_or_else(|error| error.into_inner()));
+    /// assert!(now().path((0, 0), (39, 0))?.is_none());
+    /// // A door opens.
+    /// let change = space.edit(Rectangle::new(20, 7, 1, 2), |_, _| false)?;
+    /// let next = now().hand_on(&now().index().repair(&change)?)?;
+    /// *planners.write().unwrap_or_else(|error| error.into_inner()) = Arc::new(next);
+    /// assert!(now().path((0, 0), (39, 0))?.is_some());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`follow`](Self::follow).
+    pub fn hand_on(&self, index: &Index) -> Result<Self, Error> {
+        self.index.check_successor(index)?;
+        let mut idle = std::mem::take(&mut *self.idle());
+        // At once, so that none keeps a map in memory that nobody else has.
+        idle.retain_mut(|planner| planner.follow(index).is_ok());
+        Ok(Self { index: index.clone(), idle: Mutex::new(idle) })
     }
 
     fn idle(&self) -> std::sync::MutexGuard<'_, Vec<Planner>> {

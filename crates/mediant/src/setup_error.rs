@@ -107,6 +107,16 @@ pub enum SetupError {
         /// The engine of the index.
         known: Engine,
     },
+    /// An index of another engine than that of the planner that is to follow to it.
+    #[error(
+        "this planner is of {known}, and cannot follow to an index of {engine}: make a planner of that index"
+    )]
+    OtherPlanner {
+        /// The engine of the index.
+        engine: Engine,
+        /// The engine of the planner.
+        known: Engine,
+    },
     /// Another variant than that which the index was prepared for.
     #[error("this index is for another variant of {engine}: prepare the one that you want")]
     OtherVariant {

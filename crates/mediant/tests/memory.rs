@@ -161,9 +161,31 @@ fn eight_planners_share_one_index() {
         let (_clones, of_clones) = kept(|| vec![index.clone(); 64]);
         assert!(of_clones < 64 * 512, "{engine}: {of_clones}");
         drop(shared);
+        follows_in_its_memory(&space, &index);
         is_refused(&space, configured, &index);
         keeps_nothing_once_stopped(&space, configured);
     }
+}
+
+/// A planner that follows to the map after an edit and back takes no more memory than the paths of its queries:
+/// its open list is warm, and so are the pages that it touches.
+fn follows_in_its_memory(space: &Space, index: &Index) {
+    // A cell that is blocked, so that no subgoal is added.
+    let change = space.edit_cells([((1, 2), false)]).expect("a cell of the map");
+    let edited = index.repair(&change).expect("its own change");
+    let (engine, mut planner) = (index.searched_by(), index.planner());
+    let turn = |planner: &mut Planner| {
+        for next in [&edited, index] {
+            planner.follow(next).expect("the same setup");
+            let answer = planner.find(Query::new((0, 0), (250, 250))).expect("both ends are free");
+            assert!(answer.path().is_some());
+        }
+    };
+    (0..2).for_each(|_| turn(&mut planner));
+    let before = EVER.load(Ordering::Relaxed);
+    turn(&mut planner);
+    let bytes = EVER.load(Ordering::Relaxed) - before;
+    assert!(bytes < SLACK, "{engine}: {bytes} bytes for following twice");
 }
 
 /// Preparing again, stopped at 10, 50 and 90 % of its questions, keeps no memory.

@@ -286,6 +286,23 @@ def test_repair(rng, engine, how):
     assert grid.prepare("hpa").repair(edited).origin == "repaired"
 
 
+def test_repair_hands_scratch_memory_on(rng):
+    """Both indexes answer in turn, whichever has the memory: the old one makes it anew."""
+    for engine, how in [("astar", {}), ("jps-block", {}), ("anya", {"k": "any"}), ("hpa", {})]:
+        grid, starts, goals = example(rng)
+        index = grid.prepare(engine, **how)
+        edited = grid.edit((3, 4), rng.random((5, 6)) < 0.4)
+        expected = [a.prepare(engine, **how).distances(starts, goals, invalid="none") for a in (grid, edited)]
+        index.path(starts[0], goals[0])
+        repaired = index.repair(edited)
+        for _ in range(2):
+            for known, answering in zip(expected, (index, repaired)):
+                found = answering.distances(starts, goals, invalid="none")
+                assert np.array_equal(found, known, equal_nan=True)
+        # And back again, to a grid that another index has.
+        assert np.array_equal(repaired.repair(grid).distances(starts, goals, invalid="none"), expected[0])
+
+
 def test_repair_of_other_sizes():
     index = mediant.Grid.from_rows(["..", ".."]).prepare("hpa")
     other = mediant.Grid.from_rows(["...", "..."])

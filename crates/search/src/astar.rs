@@ -53,13 +53,10 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> AStar<G, H> {
         Self::with_successors(graph, heuristic, AllMoves)
     }
 
-    /// Continues with another grid graph. The scratch memory is kept if that has as many vertices.
-    pub fn set_graph(&mut self, graph: G) {
-        if graph.vertex_count() == self.graph.vertex_count() {
-            self.graph = graph;
-        } else {
-            *self = Self::new(graph, self.heuristic);
-        }
+    /// Continues with another grid graph: that of a map after an edit. The search that was begun last is
+    /// forgotten. The scratch memory is kept if the grid graph has as many vertices.
+    pub fn follow(&mut self, graph: G) {
+        self.follow_graph(graph);
     }
 
     /// Extends a path from its last waypoint to `goal`, if that costs at most `limit`; vertices through which

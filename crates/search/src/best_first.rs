@@ -121,6 +121,23 @@ where
         Self { graph, heuristic, successors, nodes, open, starts, aim, status }
     }
 
+    /// Continues with another grid graph, by successors that are those of it. The search that was begun last
+    /// is forgotten. The scratch memory is kept if the grid graph has as many vertices.
+    pub fn follow_with(&mut self, graph: G, successors: S) {
+        self.successors = successors;
+        self.follow_graph(graph);
+    }
+
+    /// Continues with another grid graph, whose successors are there.
+    pub(crate) fn follow_graph(&mut self, graph: G) {
+        self.end_retry();
+        self.nodes.fit(graph.vertex_count());
+        self.open.clear();
+        self.starts.clear();
+        (self.aim, self.status) = (Aim::NONE, SearchStatus::default());
+        self.graph = graph;
+    }
+
     /// Makes the starts the only nodes that are known.
     fn begin_at(&mut self, aim: Aim, observer: &mut impl Observer) {
         self.aim = aim;

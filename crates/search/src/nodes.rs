@@ -55,6 +55,8 @@ pub struct NodeStore<N: ParentPointer = ()> {
     /// For each block of ids its place among those of `nodes`, 0 if it has none yet; empty if nodes are
     /// stored by id.
     blocks: Box<[u32]>,
+    /// Vertex ids are below this.
+    len: usize,
     generation: u32,
 }
 
@@ -80,12 +82,22 @@ impl<N: ParentPointer> NodeStore<N> {
     }
 
     fn by_id(len: usize) -> Self {
-        Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), generation: 1 }
+        Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), len, generation: 1 }
     }
 
     fn in_blocks(len: usize) -> Self {
         let blocks = vec![0; len.div_ceil(BLOCK)].into_boxed_slice();
-        Self { nodes: vec![N::UNKNOWN; BLOCK], blocks, generation: 1 }
+        Self { nodes: vec![N::UNKNOWN; BLOCK], blocks, len, generation: 1 }
+    }
+
+    /// Forgets all nodes, and becomes a store for vertex ids below `len`. The memory is kept if it was one for
+    /// as many.
+    pub fn fit(&mut self, len: usize) {
+        if self.len == len {
+            self.start_search();
+        } else {
+            *self = Self::new(len);
+        }
     }
 
     /// The place of a node among `nodes`.
@@ -200,6 +212,25 @@ mod tests {
         store.start_search();
         assert_eq!(store.generation, 1);
         assert!((0..3).all(|id| store.get(VertexId(id)).is_none()));
+    }
+
+    #[test]
+    fn a_store_for_another_map_knows_nothing() {
+        let mut store = NodeStore::<()>::new(3);
+        store.set_path(VertexId(2), Cost::ZERO, 0, ());
+        let place = store.nodes.as_ptr();
+        store.fit(3);
+        assert_eq!((store.get(VertexId(2)).is_none(), store.nodes.as_ptr()), (true, place));
+        store.set_path(VertexId(2), Cost::ZERO, 0, ());
+        store.fit(5);
+        assert!((0..5).all(|id| store.get(VertexId(id)).is_none()));
+
+        let mut large = NodeStore::<VertexId>::new(MOST_BY_ID + 1);
+        large.set_path(VertexId(70), Cost::ZERO, 0, VertexId(0));
+        large.fit(MOST_BY_ID + 1);
+        assert!(large.get(VertexId(70)).is_none() && large.nodes.len() == 2 * BLOCK);
+        large.fit(80);
+        assert_eq!((large.nodes.len(), large.blocks.len()), (80, 0));
     }
 
     #[test]

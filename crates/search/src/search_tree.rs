@@ -48,6 +48,16 @@ impl<E: Copy + Default> SearchTree<E> {
         count.saturating_mul(size_of::<TreeNode<E>>())
     }
 
+    /// Forgets all nodes, and becomes a tree for node numbers below `count`. The memory is kept if it has room
+    /// for them, and at most twice as much.
+    pub fn fit(&mut self, count: usize) {
+        if (self.nodes.len() / 2..=self.nodes.len()).contains(&count) {
+            self.start_search();
+        } else {
+            *self = Self::new(count);
+        }
+    }
+
     /// Forgets all nodes, in constant time (but for one call in 2³²).
     pub fn start_search(&mut self) {
         self.open.clear();

@@ -93,6 +93,15 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         Self { graph, nodes, reached: Vec::new(), expanded: 0, goal, status }
     }
 
+    /// Continues with another grid graph. The search that was begun last is forgotten. The scratch memory is
+    /// kept if the grid graph has as many vertices.
+    pub fn follow(&mut self, graph: G) {
+        self.nodes.fit(node_count(&*graph));
+        self.reached.clear();
+        (self.expanded, self.goal, self.status) = (0, None, SearchStatus::default());
+        self.graph = graph;
+    }
+
     /// The least number of moves from `start` to every vertex.
     ///
     /// # Errors

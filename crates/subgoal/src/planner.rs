@@ -91,6 +91,20 @@ where
             best: (Cost::MAX, None),
         })
     }
+
+    /// Continues in another space, on its subgoal graph. The search that was begun last is forgotten. The
+    /// scratch memory is kept if it has room for the subgoals.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new). Nothing is changed then.
+    pub fn follow(&mut self, space: S, graph: I) -> Result<(), Mismatch> {
+        graph.check(&*space)?;
+        self.searches.iter_mut().for_each(|search| search.fit(graph.subgoals()));
+        (self.query, self.status, self.is_direct) = (None, SearchStatus::default(), false);
+        self.best = (Cost::MAX, None);
+        (self.space, self.graph) = (space, graph);
+        Ok(())
+    }
 }
 
 impl<S, I, P> Planner for SubgoalAStar<S, I, P>

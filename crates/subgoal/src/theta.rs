@@ -118,6 +118,21 @@ where
             last: None,
         })
     }
+
+    /// Continues in another space, on its subgoal graph. The search that was begun last is forgotten. The
+    /// scratch memory is kept if it has room for the subgoals.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new). Nothing is changed then.
+    pub fn follow(&mut self, space: S, graph: I) -> Result<(), Mismatch> {
+        graph.check(&*space)?;
+        let count = graph.subgoals();
+        self.tree.fit(count + 1);
+        self.descent.fit(count);
+        (self.query, self.last, self.status) = (None, None, SearchStatus::default());
+        (self.space, self.graph) = (space, graph);
+        Ok(())
+    }
 }
 
 impl<S, I, P> Planner for SubgoalTheta<S, I, P>

@@ -112,4 +112,10 @@ impl Index {
         let change = Change::between(self.inner.space(), &space.inner).map_err(raised)?;
         Ok(Self { inner: self.inner.repair(&change).map_err(raised)?, world: space.world })
     }
+
+    /// A second handle to the same index, for arguments of calls.
+    #[wasm_bindgen(js_name = __share, skip_typescript)]
+    pub fn share(&self) -> Self {
+        Self { inner: self.inner.clone(), world: self.world }
+    }
 }

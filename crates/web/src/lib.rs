@@ -43,6 +43,7 @@ mod errors;
 mod exceptions;
 #[cfg(feature = "full")]
 mod field;
+mod follow;
 #[cfg(feature = "full")]
 mod goals;
 mod grid;

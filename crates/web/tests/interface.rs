@@ -167,6 +167,16 @@ fn spaces_and_indexes() {
     assert_eq!(get(&answer, "status"), "unreachable");
     let other = ok(&grid, "space", &[json(r#"{"k": 2}"#)]);
     assert_eq!(thrown(&hpa, "repair", &[other]), "MediantError mismatch");
+    // A planner of the index before goes on with the repaired one.
+    let follower = ok(&hpa, "planner", &[]);
+    ok(&follower, "begin", &[at(0, 0), at(7, 0)]);
+    assert!(ok(&follower, "follow", std::slice::from_ref(&repaired)).is_undefined());
+    assert_eq!(thrown(&follower, "step", &[1.into()]), "MediantError not-begun");
+    let followed = ok(&follower, "find", &[at(0, 0), at(7, 0)]);
+    assert_eq!(get(&followed, "distance"), get(&answer, "distance"));
+    let astar = ok(&space, "prepare", &["astar".into()]);
+    assert_eq!(thrown(&follower, "follow", &[astar]), "MediantError engine-option");
+    assert_eq!(thrown(&follower, "follow", &[space.clone()]), "TypeError ");
     // The error of a listener comes out, and the space is as it was.
     let throws = Function::new_no_args("throw new Error('enough')").into();
     let error = call(&space, "prepare", &[NONE, NONE, throws]).expect_err("the listener throws");

@@ -135,6 +135,26 @@ where
         })
     }
 
+    /// Continues on another grid graph and its index: those of a map after a change. The search that was begun
+    /// last is forgotten. The scratch memory is kept if the map has the same size.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new). Nothing is changed then.
+    pub fn follow(&mut self, grid_graph: G, index: I) -> Result<(), HierarchyError> {
+        check::belongs(index.identity, &grid_graph)?;
+        self.index = index;
+        self.follow_graph(grid_graph);
+        Ok(())
+    }
+
+    /// Continues on another grid graph, whose index is there.
+    fn follow_graph(&mut self, grid_graph: G) {
+        self.tree.fit(self.index.segments());
+        self.cell_search.follow(grid_graph.clone());
+        self.phase = Phase::Over(SearchStatus::Unreachable);
+        self.grid_graph = grid_graph;
+    }
+
     /// The paper's Pstep: every how many segments there is a checkpoint.
     #[must_use]
     pub fn with_step(self, step: NonZeroU32) -> Self {
@@ -156,7 +176,7 @@ where
     H2: Heuristic,
 {
     /// Changes the map: `grid_graph` is that of the map after the change. Repairs the index, and keeps the
-    /// scratch memory.
+    /// scratch memory. The search that was begun last is forgotten.
     ///
     /// # Errors
     /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k, or of another map than
@@ -166,8 +186,7 @@ where
         check::same_moves(self.index.identity, &grid_graph)?;
         check::after(&grid_graph, change)?;
         self.index.repair(change)?;
-        self.cell_search.set_graph(grid_graph.clone());
-        self.grid_graph = grid_graph;
+        self.follow_graph(grid_graph);
         Ok(())
     }
 }

@@ -129,6 +129,27 @@ where
         })
     }
 
+    /// Continues on another grid graph and its index: those of a map after a change. The search that was begun
+    /// last is forgotten. The scratch memory is kept if there is room for the nodes.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new). Nothing is changed then.
+    pub fn follow(&mut self, grid_graph: G, index: I) -> Result<(), HierarchyError> {
+        check::belongs(index.identity, &grid_graph)?;
+        if index.k != self.index.k {
+            self.cluster_search = ClusterSearch::new(index.k);
+        }
+        let nodes = index.most_nodes() + 2;
+        self.tree.fit(nodes);
+        if let Some(second) = &mut self.second_tree {
+            second.fit(nodes);
+        }
+        self.endpoint_costs.iter_mut().for_each(|costs| costs.resize(index.levels.len(), Vec::new()));
+        self.phase = Phase::None;
+        (self.grid_graph, self.index) = (grid_graph, index);
+        Ok(())
+    }
+
     /// Whether the planner straightens its paths, or returns them unstraightened, as refinement leaves them.
     #[must_use]
     pub fn with_straightening(self, straightens: bool) -> Self {
@@ -142,7 +163,7 @@ where
     I: DerefMut<Target = ClusterGraph>,
 {
     /// Changes the map: `grid_graph` is that of the map after the change. Repairs the index, and keeps the
-    /// scratch memory.
+    /// scratch memory. The search that was begun last is forgotten.
     ///
     /// # Errors
     /// [`HierarchyError::Mismatch`] for a grid graph of another rule of motion or k, or of another map than
@@ -152,6 +173,7 @@ where
         check::same_moves(self.index.identity, &grid_graph)?;
         check::after(&grid_graph, change)?;
         self.index.repair(change)?;
+        self.phase = Phase::None;
         self.grid_graph = grid_graph;
         Ok(())
     }
@@ -224,6 +246,8 @@ where
             }
             Phase::Search(query) if at == query.start => return Some(Path::new(vec![at])),
             Phase::Search(query) => {
+                // Outside the map there is no cluster.
+                self.grid_graph.id(at)?;
                 let level = &self.index.levels[query.top];
                 let cluster = level.cluster_at(at);
                 let mut nodes = level.nodes_of(cluster).iter().zip(level.first_node(cluster)..);

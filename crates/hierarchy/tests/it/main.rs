@@ -4,6 +4,7 @@ mod chains;
 mod clusters;
 mod common;
 mod complete;
+mod follow;
 mod identity;
 mod index;
 mod interrupts;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use mediant_grid::{Corners, FreeSpace, Interrupt};
 use mediant_moves::K;
-use mediant_search::{Anya, DeadEnds};
+use mediant_search::{Anya, DeadEnds, EuclideanNorm, LatticeNorm, Norm};
 
-use super::{Boxed, EngineIndex, Source, boxed, shared};
+use super::{Boxed, EngineIndex, Source, boxed, following, shared};
 use crate::{
     change::Change,
     configured::ConfiguredEngine,
@@ -36,6 +36,12 @@ impl AnyaIndex {
         };
         Ok(Self { space: Arc::clone(space), k, dead_ends })
     }
+
+    fn follow_by<N: Norm + Send + 'static>(&self, search: &mut Boxed) -> Result<bool, Error> {
+        following(search, |search: &mut Anya<_, N>| {
+            search.follow(Arc::clone(&self.space), self.dead_ends.clone())
+        })
+    }
 }
 
 impl EngineIndex for AnyaIndex {
@@ -47,6 +53,13 @@ impl EngineIndex for AnyaIndex {
             (K::Finite(k), None) => boxed(Anya::over(space, k)?),
             (K::Finite(k), Some(dead_ends)) => boxed(Anya::over(space, k)?.without(dead_ends)?),
         })
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        match self.k {
+            K::Any => self.follow_by::<EuclideanNorm>(search),
+            K::Finite(_) => self.follow_by::<LatticeNorm>(search),
+        }
     }
 
     fn scratch_bytes(&self) -> usize {

@@ -9,7 +9,7 @@ use mediant_moves::FiniteK;
 use mediant_search::PaperCanonical;
 use mediant_search::{Canonical, Pruning, parts::NodeStore};
 
-use super::{Boxed, EngineIndex, Source, boxed, shared, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, following, shared, with_options};
 #[cfg(feature = "publications")]
 use crate::option::Variant;
 use crate::{
@@ -102,6 +102,20 @@ impl<P: PlacementOfSpace> EngineIndex for CanonicalIndex<P> {
             #[cfg(feature = "publications")]
             Rule::AsPublished => boxed(PaperCanonical::new(graph, self.heuristic)),
         })
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        let graph = Arc::clone(&self.graph);
+        match &self.rule {
+            Rule::Pruning(pruning) => following(search, |search: &mut Canonical<_, Admissible, P>| {
+                search.follow(graph, Arc::clone(pruning))
+            }),
+            #[cfg(feature = "publications")]
+            Rule::AsPublished => following(search, |search: &mut PaperCanonical<_, Admissible>| {
+                search.follow(graph);
+                Ok::<_, Error>(())
+            }),
+        }
     }
 
     fn scratch_bytes(&self) -> usize {

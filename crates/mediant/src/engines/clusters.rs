@@ -6,7 +6,8 @@ use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted};
 use mediant_hierarchy::{ClusterGraph, Clustering, HpaStar};
 
 use super::{
-    Boxed, EngineIndex, Source, boxed, check_counted, check_levels, check_side, shared, with_options,
+    Boxed, EngineIndex, Source, boxed, check_counted, check_levels, check_side, following, shared,
+    with_options,
 };
 #[cfg(feature = "publications")]
 use crate::option::published::UNSTRAIGHTENED;
@@ -110,6 +111,11 @@ impl EngineIndex for ClusterIndex {
     fn search(&self) -> Result<Boxed, Error> {
         let search = HpaStar::new(Arc::clone(&self.graph), Arc::clone(&self.clusters))?;
         Ok(boxed(search.with_straightening(if_published!(!self.own.unstraightened, else true))))
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        let (graph, clusters) = (Arc::clone(&self.graph), Arc::clone(&self.clusters));
+        following(search, |search: &mut HpaStar<_, _>| search.follow(graph, clusters))
     }
 
     fn scratch_bytes(&self) -> usize {

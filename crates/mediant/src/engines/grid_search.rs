@@ -5,11 +5,11 @@ use std::sync::Arc;
 use mediant_grid::{GridGraph, Interrupt, Placement};
 #[cfg(feature = "publications")]
 use mediant_search::SquaredEuclidean;
-use mediant_search::{AStar, parts::NodeStore};
+use mediant_search::{AStar, Heuristic, parts::NodeStore};
 #[cfg(feature = "all-engines")]
 use mediant_search::{Euclidean, Hk, Wavefront, Zero};
 
-use super::{Boxed, EngineIndex, boxed, shared, with_options};
+use super::{Boxed, EngineIndex, boxed, following, shared, with_options};
 #[cfg(not(feature = "all-engines"))]
 use crate::heuristic::Admissible;
 use crate::{
@@ -87,6 +87,30 @@ impl<P: Placement> GridSearchIndex<P> {
     fn by_heuristic(&self, name: HeuristicName) -> Result<Boxed, Error> {
         Ok(boxed(AStar::new(Arc::clone(&self.graph), Admissible::new(Engine::AStar, Some(name))?)))
     }
+
+    /// The same, for a search that follows.
+    #[cfg(feature = "all-engines")]
+    fn follow_by_heuristic(&self, name: HeuristicName, search: &mut Boxed) -> Result<bool, Error> {
+        match name {
+            HeuristicName::Hk => self.follow_by::<Hk>(search),
+            HeuristicName::Euclidean => self.follow_by::<Euclidean>(search),
+            HeuristicName::Zero => self.follow_by::<Zero>(search),
+            #[cfg(feature = "publications")]
+            HeuristicName::SquaredEuclidean => self.follow_by::<SquaredEuclidean>(search),
+        }
+    }
+
+    #[cfg(not(feature = "all-engines"))]
+    fn follow_by_heuristic(&self, _: HeuristicName, search: &mut Boxed) -> Result<bool, Error> {
+        self.follow_by::<Admissible>(search)
+    }
+
+    fn follow_by<H: Heuristic + 'static>(&self, search: &mut Boxed) -> Result<bool, Error> {
+        following(search, |search: &mut AStar<Arc<GridGraph<P>>, H>| {
+            search.follow(Arc::clone(&self.graph));
+            Ok::<_, Error>(())
+        })
+    }
 }
 
 impl<P: PlacementOfSpace> EngineIndex for GridSearchIndex<P> {
@@ -96,6 +120,18 @@ impl<P: PlacementOfSpace> EngineIndex for GridSearchIndex<P> {
             GridSearch::Dijkstra => self.by_heuristic(HeuristicName::Zero),
             #[cfg(feature = "all-engines")]
             GridSearch::Wavefront => Ok(boxed(Wavefront::new(Arc::clone(&self.graph)))),
+        }
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        match self.engine {
+            GridSearch::AStar(name) => self.follow_by_heuristic(name, search),
+            GridSearch::Dijkstra => self.follow_by_heuristic(HeuristicName::Zero, search),
+            #[cfg(feature = "all-engines")]
+            GridSearch::Wavefront => following(search, |search: &mut Wavefront<Arc<GridGraph<P>>>| {
+                search.follow(Arc::clone(&self.graph));
+                Ok::<_, Error>(())
+            }),
         }
     }
 

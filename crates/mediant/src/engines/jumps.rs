@@ -11,7 +11,7 @@ use mediant_search::{
     parts::{BlockFinder, JumpFinder, JumpPointSearch, NodeStore, StepwiseFinder},
 };
 
-use super::{Boxed, EngineIndex, Source, boxed, shared, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, following, shared, with_options};
 #[cfg(feature = "publications")]
 use crate::option::{
     published::{JUMP_LIMIT, KEEP_INTERMEDIATE},
@@ -141,6 +141,13 @@ impl<P: PlacementOfSpace, J: EngineFinder<P> + 'static> EngineIndex for JumpInde
         let search = JumpPointSearch::with_finder(graph, pruning, self.finder.clone(), self.heuristic)?;
         let (limit, keep_intermediate) = self.own.published();
         Ok(boxed(search.with_jump_limit(limit).with_intermediate(keep_intermediate)))
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        let (graph, pruning) = (Arc::clone(&self.graph), Arc::clone(&self.pruning));
+        following(search, |search: &mut JumpPointSearch<_, Admissible, P, J>| {
+            search.follow(graph, pruning, self.finder.clone())
+        })
     }
 
     fn scratch_bytes(&self) -> usize {

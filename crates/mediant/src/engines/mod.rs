@@ -18,7 +18,7 @@ mod subgoal_theta;
 mod subgoals;
 mod theta;
 
-use std::{num::NonZeroU32, sync::Arc};
+use std::{any::Any, num::NonZeroU32, sync::Arc};
 
 #[cfg(feature = "all-engines")]
 use mediant_grid::Centers;
@@ -57,11 +57,26 @@ fn boxed(search: impl Search + Send + 'static) -> Boxed {
     Box::new(search)
 }
 
+/// Lets a search follow to another map, if it is of this type.
+fn following<S: Search + 'static, E: Into<Error>>(
+    search: &mut Boxed,
+    follow: impl FnOnce(&mut S) -> Result<(), E>,
+) -> Result<bool, Error> {
+    let search: &mut dyn Any = &mut **search;
+    let Some(search) = search.downcast_mut() else { return Ok(false) };
+    follow(search).map(|()| true).map_err(Into::into)
+}
+
 /// An engine with its options, and what it has prepared of a space: what makes the searches of planners.
 /// It never changes. The methods with a body are for engines that save, repair or share what they prepare.
 pub(crate) trait EngineIndex: Send + Sync {
     /// A search with scratch memory of its own.
     fn search(&self) -> Result<Boxed, Error>;
+
+    /// Makes a search of an index with the same options one of this index, which keeps its scratch memory and
+    /// nothing else. Returns whether it did: a search of another type needs a new one in its place. After an
+    /// error it is what it was.
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error>;
 
     /// The scratch memory that a search takes when it is made, in bytes.
     fn scratch_bytes(&self) -> usize;

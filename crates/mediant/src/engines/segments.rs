@@ -8,7 +8,7 @@ use mediant_search::Heuristic;
 #[cfg(feature = "publications")]
 use mediant_search::SquaredEuclidean;
 
-use super::{Boxed, EngineIndex, Source, boxed, check_side, shared, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, check_side, following, shared, with_options};
 use crate::{
     change::Change,
     configured::ConfiguredEngine,
@@ -155,6 +155,15 @@ impl SegmentIndex {
         let search = ChpaStar::new(Arc::clone(&self.graph), Arc::clone(&self.segments), first, second)?;
         Ok(boxed(search.with_fallback_policy(self.own.fallback_policy()).with_step(self.own.step())))
     }
+
+    fn follow_by<H1: Heuristic + 'static, H2: Heuristic + 'static>(
+        &self,
+        search: &mut Boxed,
+    ) -> Result<bool, Error> {
+        following(search, |search: &mut ChpaStar<_, _, H1, H2>| {
+            search.follow(Arc::clone(&self.graph), Arc::clone(&self.segments))
+        })
+    }
 }
 
 impl EngineIndex for SegmentIndex {
@@ -169,6 +178,20 @@ impl EngineIndex for SegmentIndex {
             (Ok(_), Ok(_)) => {}
         }
         self.search_by(first?, second?)
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        #[cfg(feature = "publications")]
+        {
+            let is_admissible = |name| Admissible::new(Engine::Chpa, Some(name)).is_ok();
+            match self.own.heuristics().map(is_admissible) {
+                [true, false] => return self.follow_by::<Admissible, SquaredEuclidean>(search),
+                [false, true] => return self.follow_by::<SquaredEuclidean, Admissible>(search),
+                [false, false] => return self.follow_by::<SquaredEuclidean, SquaredEuclidean>(search),
+                [true, true] => {}
+            }
+        }
+        self.follow_by::<Admissible, Admissible>(search)
     }
 
     fn scratch_bytes(&self) -> usize {

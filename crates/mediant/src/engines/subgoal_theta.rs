@@ -6,7 +6,7 @@ use mediant_grid::{Corners, FreeSpace, Interrupt, Interrupted};
 use mediant_moves::K;
 use mediant_subgoal::{SubgoalGraph, SubgoalTheta};
 
-use super::{Boxed, EngineIndex, Source, boxed, check_counted, check_levels, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, check_counted, check_levels, following, with_options};
 use crate::{
     configured::ConfiguredEngine,
     engine::Engine,
@@ -84,6 +84,11 @@ impl SubgoalThetaIndex {
 impl EngineIndex for SubgoalThetaIndex {
     fn search(&self) -> Result<Boxed, Error> {
         Ok(boxed(SubgoalTheta::new(Arc::clone(&self.space), Arc::clone(&self.graph))?))
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        let (space, graph) = (Arc::clone(&self.space), Arc::clone(&self.graph));
+        following(search, |search: &mut SubgoalTheta<_, _, Corners>| search.follow(space, graph))
     }
 
     fn scratch_bytes(&self) -> usize {

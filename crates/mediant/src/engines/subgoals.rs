@@ -9,7 +9,7 @@ use mediant_subgoal::{
     HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
 };
 
-use super::{Boxed, EngineIndex, Source, boxed, check_levels, prepare, shared, with_options};
+use super::{Boxed, EngineIndex, Source, boxed, check_levels, following, prepare, shared, with_options};
 use crate::{
     choice::Choice,
     configured::ConfiguredEngine,
@@ -152,6 +152,20 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             }
             Kept::Graph(space, graph) => Ok(boxed(SubgoalAStar::new(Arc::clone(space), Arc::clone(graph))?)),
             Kept::Nothing(_, substitute) => substitute.search(),
+        }
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        match &self.kept {
+            Kept::Labels(Labeled { space, labels }) => {
+                following(search, |search: &mut HubLabelSearch<_, _>| {
+                    search.follow(Arc::clone(space), Arc::clone(labels))
+                })
+            }
+            Kept::Graph(space, graph) => following(search, |search: &mut SubgoalAStar<_, _, P>| {
+                search.follow(Arc::clone(space), Arc::clone(graph))
+            }),
+            Kept::Nothing(_, substitute) => substitute.follow(search),
         }
     }
 

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use mediant_grid::{GridGraph, Interrupt, Placement};
-use mediant_search::{LazyThetaStar, ThetaStar};
+use mediant_search::{
+    LazyThetaStar, ThetaStar,
+    parts::{Eager, Lazy, SightCheck, Theta},
+};
 
-use super::{Boxed, EngineIndex, boxed, grid_search::GuidedOptions, shared, with_options};
+use super::{Boxed, EngineIndex, boxed, following, grid_search::GuidedOptions, shared, with_options};
 use crate::{
     change::Change, configured::ConfiguredEngine, engine::Engine, error::Error, heuristic::Admissible,
     space::PlacementOfSpace,
@@ -32,6 +35,15 @@ impl<P: Placement> ThetaIndex<P> {
     }
 }
 
+impl<P: Placement> ThetaIndex<P> {
+    fn follow_by<S: SightCheck + 'static>(&self, search: &mut Boxed) -> Result<bool, Error> {
+        following(search, |search: &mut Theta<Arc<GridGraph<P>>, Admissible, S>| {
+            search.follow(Arc::clone(&self.graph));
+            Ok::<_, Error>(())
+        })
+    }
+}
+
 impl<P: PlacementOfSpace> EngineIndex for ThetaIndex<P> {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
@@ -39,6 +51,10 @@ impl<P: PlacementOfSpace> EngineIndex for ThetaIndex<P> {
             false => boxed(ThetaStar::new(graph, self.heuristic)),
             true => boxed(LazyThetaStar::new(graph, self.heuristic)),
         })
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        if self.is_lazy { self.follow_by::<Lazy>(search) } else { self.follow_by::<Eager>(search) }
     }
 
     fn scratch_bytes(&self) -> usize {

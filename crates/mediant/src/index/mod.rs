@@ -285,6 +285,11 @@ impl Index {
         self.prepared.search()
     }
 
+    /// Makes a search of another index with the same options one of this index: see [`EngineIndex::follow`].
+    pub(crate) fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        self.prepared.follow(search)
+    }
+
     /// Its hub labels, if it has any.
     pub(crate) fn labels(&self) -> Option<&dyn HasLabels> {
         self.prepared.labels()

@@ -1,5 +1,6 @@
 //! Planners: one type for all engines.
 
+mod follow;
 mod steps;
 
 use std::{fmt, sync::Arc};

@@ -104,7 +104,7 @@ fn distances_are_the_lengths_of_paths() {
 }
 
 /// The saved index of a map on which nothing was kept.
-fn nothing(setup: Setup, map: &Map) -> Vec<u8> {
+pub(crate) fn nothing(setup: Setup, map: &Map) -> Vec<u8> {
     let space = setup.space(map).expect("a space");
     let identity: Identity = space.identity();
     let version = setup.index_version().expect("it is saved");

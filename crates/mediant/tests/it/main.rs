@@ -8,6 +8,7 @@ mod door;
 mod edits;
 mod exceptions;
 mod field;
+mod follow;
 mod goals;
 mod guesses;
 mod hierarchies;

@@ -1,5 +1,7 @@
 //! Indexes with other options, for other maps, as files and bytes.
 
+use std::sync::Arc;
+
 use mediant::{Change, Limits, Setup};
 use pyo3::{
     prelude::*,
@@ -54,9 +56,9 @@ impl Index {
 
     /// The index for an edited grid.
     ///
-    /// Where jumps lead in blocks (``jps-block``), clusters and segments (``hpa``, ``chpa``) are repaired where
-    /// the grids differ. Engines that search the grid as it is go on with the next one. The other engines'
-    /// indexes are prepared anew. `origin` says which it was. This index stays as it is.
+    /// It is repaired by work that follows the difference of the grids where the engine's index can be, else
+    /// prepared anew: `origin` says which it was. This index stays as it is, but that it hands the scratch
+    /// memory of its searches on to the new one.
     ///
     /// Parameters
     /// ----------
@@ -77,14 +79,17 @@ impl Index {
     /// True
     fn repair(&self, py: Python<'_>, grid: &Bound<'_, PyAny>) -> PyResult<Self> {
         let Ok(changed) = grid.cast::<Grid>() else { return Err(wrong_type("grid", "a Grid", grid)) };
-        let (changed, index) = (changed.get().clone(), self.planners.index().clone());
+        let (changed, planners) = (changed.get().clone(), Arc::clone(&self.planners));
         let map = changed.map().clone();
         let work = move |limits: &Limits| {
+            let index = planners.index();
             let space = map.within(limits).space(index.setup().motion)?;
             let change = Change::between(index.space(), &space)?;
-            in_pool(None, || index.within(limits).repair(&change))
+            let repaired = in_pool(None, || index.within(limits).repair(&change))?;
+            planners.hand_on(&repaired)
         };
-        Ok(Self::new(changed, on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?))
+        let planners = on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?;
+        Ok(Self { grid: changed, planners: Arc::new(planners) })
     }
 
     /// Writes the index to a file, for `Grid.load`. An older file there is replaced as a whole.

@@ -92,13 +92,23 @@ impl<N: Norm> Frontier<N> {
         &self.norm
     }
 
-    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
-    /// root, number 0.
-    pub(super) fn start(&mut self, at: Vertex) {
+    /// Forgets the last search, and becomes a frontier for a map of so many columns and rows of vertices.
+    pub(super) fn fit(&mut self, columns: u32, rows: u32) {
+        self.forget();
+        self.history.fit(columns, rows);
+    }
+
+    fn forget(&mut self) {
         self.roots.clear();
         self.nodes.clear();
         self.open.clear();
         self.is_taken = false;
+    }
+
+    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
+    /// root, number 0.
+    pub(super) fn start(&mut self, at: Vertex) {
+        self.forget();
         self.history.clear();
         self.roots.push(Root { at, g: N::ZERO, parent: 0, is_current: true });
         self.history.set(at, 0);

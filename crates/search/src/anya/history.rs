@@ -35,6 +35,19 @@ impl RootHistory {
         Self { blocks, width, entries: vec![Self::EMPTY], generation: 1 }
     }
 
+    /// Forgets all roots, and becomes a history for a map of so many columns and rows of vertices. The memory
+    /// is kept if it has room for as many blocks, and at most twice as much.
+    pub(super) fn fit(&mut self, columns: u32, rows: u32) {
+        let [width, height] = [columns, rows].map(|vertices| vertices.div_ceil(16) as usize);
+        if (self.blocks.len() / 2..=self.blocks.len()).contains(&(width * height)) {
+            // Entries are those of a block by its number, wherever it lies.
+            self.width = width;
+            self.clear();
+        } else {
+            *self = Self::new(columns, rows);
+        }
+    }
+
     /// The bytes that it takes when it is made.
     pub(super) const fn bytes(columns: u32, rows: u32) -> usize {
         let blocks = columns.div_ceil(16) as usize * rows.div_ceil(16) as usize;

@@ -134,11 +134,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
             }
             (_, dead_ends) => dead_ends.map(Opened::new),
         };
-        let size = |space: &S| (space.grid().width(), space.grid().height());
-        if size(&self.space) != size(&space) {
-            let (width, height) = size(&space);
-            self.frontier = Frontier::new(self.frontier.norm().clone(), width + 1, height + 1);
-        }
+        self.frontier.fit(space.grid().width() + 1, space.grid().height() + 1);
         (self.space, self.last, self.status) = (space, None, SearchStatus::default());
         Ok(())
     }

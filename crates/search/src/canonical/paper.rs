@@ -56,6 +56,12 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> PaperCanonical
         let jump_points = (0..P::PATTERNS).map(is_jump_point).collect();
         Self::with_successors(graph, heuristic, PaperMoves { jump_points, is_unpruned: false })
     }
+
+    /// Continues with another grid graph. The search that was begun last is forgotten. The scratch memory is
+    /// kept if the grid graph has as many vertices.
+    pub fn follow(&mut self, graph: G) {
+        self.follow_graph(graph);
+    }
 }
 
 impl<P: Placement> Successors<P> for PaperMoves {

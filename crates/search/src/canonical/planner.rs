@@ -55,6 +55,17 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic> Canonical<G, H
         pruning.check(&graph)?;
         Ok(Self::with_successors(graph, heuristic, CanonicalMoves { pruning }))
     }
+
+    /// Continues with another grid graph, by its pruning rule. The search that was begun last is forgotten.
+    /// The scratch memory is kept if the grid graph has as many vertices.
+    ///
+    /// # Errors
+    /// As for [`with_pruning`](Self::with_pruning). Nothing is changed then.
+    pub fn follow(&mut self, graph: G, pruning: Arc<Pruning<P>>) -> Result<(), Mismatch> {
+        pruning.check(&graph)?;
+        self.follow_with(graph, CanonicalMoves { pruning });
+        Ok(())
+    }
 }
 
 impl<P: Placement> Successors<P> for CanonicalMoves<P> {

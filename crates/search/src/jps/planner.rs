@@ -60,11 +60,30 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, J: JumpFinder<
         finder: J,
         heuristic: H,
     ) -> Result<Self, Mismatch> {
-        pruning.check(&graph)?;
-        if let Some(identity) = finder.identity() {
-            identity.check("the jump finder", ("the grid graph", graph.identity()))?;
-        }
+        Self::check(&graph, &pruning, &finder)?;
         Ok(Self::with_parts(graph, pruning, finder, heuristic))
+    }
+
+    /// Checks that a pruning rule and a finder are those of a grid graph.
+    fn check(graph: &GridGraph<P>, pruning: &Pruning<P>, finder: &J) -> Result<(), Mismatch> {
+        pruning.check(graph)?;
+        match finder.identity() {
+            Some(identity) => identity.check("the jump finder", ("the grid graph", graph.identity())),
+            None => Ok(()),
+        }
+    }
+
+    /// Continues with another grid graph, by its pruning rule and finder. The search that was begun last is
+    /// forgotten. The scratch memory is kept if the grid graph has as many vertices.
+    ///
+    /// # Errors
+    /// As for [`with_finder`](Self::with_finder). Nothing is changed then.
+    pub fn follow(&mut self, graph: G, pruning: Arc<Pruning<P>>, finder: J) -> Result<(), Mismatch> {
+        Self::check(&graph, &pruning, &finder)?;
+        (self.successors.pruning, self.successors.finder) = (pruning, finder);
+        self.successors.rules = JumpRules::PLAIN;
+        self.follow_graph(graph);
+        Ok(())
     }
 
     /// A planner with a finder and a pruning rule that are those of the grid graph.

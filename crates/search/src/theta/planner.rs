@@ -95,6 +95,17 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, H: Heuristic, S: SightCheck>
         Self { graph, wider, is_wider, heuristic, nodes, open, sight, ends, status, check: PhantomData }
     }
 
+    /// Continues with another grid graph. The search that was begun last is forgotten, and so is what is
+    /// remembered of lines of sight. The scratch memory is kept if the map has the same size.
+    pub fn follow(&mut self, graph: G) {
+        self.nodes.fit(graph.vertex_count());
+        self.sight.follow::<P>(&graph);
+        self.open.clear();
+        (self.ends, self.status) = ([VertexId(0); 2], SearchStatus::default());
+        (self.wider, self.is_wider) = (None, false);
+        self.graph = graph;
+    }
+
     /// The graph of N(3), if segments connect more than N(k).
     fn wider(&mut self) -> Option<&GridGraph<P>> {
         let graph: &GridGraph<P> = &self.graph;

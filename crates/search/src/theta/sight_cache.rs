@@ -7,11 +7,14 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId, sight::PolygonCells};
 
-/// Which vertices see which blocks. It depends on the map alone, so it is kept from search to search.
+/// Which vertices see which blocks. It depends on the map alone, so it is kept from search to search, until the
+/// planner follows to another map.
 #[derive(Clone, Debug)]
 pub(super) struct SightCache {
     /// For each block of vertices the two answers that were asked for last.
     blocks: Box<[[BlockSight; 2]]>,
+    /// The blocks of which any was asked for.
+    asked: Vec<u32>,
     blocks_per_row: usize,
     /// The last vertex of the map.
     last: Vertex,
@@ -43,9 +46,25 @@ impl SightCache {
         let [columns, rows] = [width, height].map(|side| side.div_ceil(1 << SHIFT) as usize);
         Self {
             blocks: vec![[BlockSight::UNKNOWN; 2]; columns * rows].into_boxed_slice(),
+            asked: Vec::new(),
             blocks_per_row: columns,
             last: Vertex::new(width as i32 - 1, height as i32 - 1),
             cover: PolygonCells::default(),
+        }
+    }
+
+    /// Forgets all answers, and takes others on the map of a free space. The memory is kept if that has the
+    /// same size.
+    pub(super) fn follow<P: Placement>(&mut self, space: &FreeSpace<P>) {
+        let (width, height) = P::vertices(space.grid());
+        if self.last != Vertex::new(width as i32 - 1, height as i32 - 1) {
+            *self = Self::new(space);
+        } else if self.asked.len() > self.blocks.len() / 4 {
+            // All at once is quicker than so many one by one.
+            self.blocks.fill([BlockSight::UNKNOWN; 2]);
+            self.asked.clear();
+        } else {
+            self.asked.drain(..).for_each(|block| self.blocks[block as usize] = [BlockSight::UNKNOWN; 2]);
         }
     }
 
@@ -101,6 +120,7 @@ impl SightCache {
             return false;
         }
         if self.blocks[block][0] == BlockSight::UNKNOWN {
+            self.asked.push(block as u32);
             self.cover.set::<P>(low, high, &edges);
             if !self.cover.is_free(space.grid()) {
                 self.blocks[block] = [BlockSight::NEVER; 2];

@@ -10,6 +10,7 @@ mod events;
 mod exact;
 mod exhaustive;
 mod fields;
+mod follow;
 mod heuristics;
 mod identity;
 mod interrupts;

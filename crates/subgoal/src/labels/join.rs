@@ -86,6 +86,14 @@ impl Join {
         Self { ends: [Candidates::new(room), Candidates::new(room)], hubs }
     }
 
+    /// Becomes the memory for other labels, and keeps what it has of it.
+    pub(super) fn fit<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) {
+        let room = index.geometry.seen.most + 1;
+        self.ends.iter_mut().for_each(|end| end.fit(room));
+        // What earlier queries left is more than any cost, whatever it was.
+        self.hubs.ways.resize(index.subgoals(), Way::NONE);
+    }
+
     /// The bytes that it takes when it is made, but for the room for what an end sees.
     pub(super) fn bytes<P: SubgoalPlacement>(index: &HubLabels<P>) -> usize {
         index.subgoals().saturating_mul(size_of::<Way>())
@@ -159,6 +167,16 @@ impl Candidates {
     fn new(room: usize) -> Self {
         let (slots, leading) = (vec![0; room], vec![0; room]);
         Self { slots, steps: vec![(0, 0); room], bounds: vec![0.0; room], count: 0, leading }
+    }
+
+    /// Makes room for so many slots.
+    fn fit(&mut self, room: usize) {
+        let Self { slots, steps, bounds, count, leading } = self;
+        slots.resize(room, 0);
+        steps.resize(room, (0, 0));
+        bounds.resize(room, 0.0);
+        leading.resize(room, 0);
+        *count = 0;
     }
 
     /// Looks up what an end sees.

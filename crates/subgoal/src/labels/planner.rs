@@ -80,6 +80,18 @@ where
         Ok(Self { space, labels, join, waypoints, chain, answer: None, to_many, as_near })
     }
 
+    /// Continues in another space, with its labels. The last answer is forgotten, the scratch memory is kept.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new). Nothing is changed then.
+    pub fn follow(&mut self, space: S, labels: I) -> Result<(), Mismatch> {
+        labels.check(&*space)?;
+        self.join.fit(&*labels);
+        self.answer = None;
+        (self.space, self.labels) = (space, labels);
+        Ok(())
+    }
+
     /// The cost of a shortest path, without the path; `None` if there is none.
     ///
     /// # Errors

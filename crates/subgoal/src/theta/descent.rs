@@ -34,6 +34,14 @@ impl Descent {
         Self { heads, generation: 0, arcs: Vec::new(), pending: Vec::new() }
     }
 
+    /// Becomes a descent for so many subgoals. The memory is kept if it was one for as many.
+    pub(super) fn fit(&mut self, count: usize) {
+        // The goal's number follows those of the subgoals: the count must be exact.
+        if self.heads.len() != count {
+            *self = Self::new(count);
+        }
+    }
+
     /// The bytes that it takes when it is made.
     pub(super) const fn bytes(count: usize) -> usize {
         count.saturating_mul(size_of::<Head>())

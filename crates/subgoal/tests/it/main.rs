@@ -3,6 +3,7 @@
 mod common;
 mod contraction;
 mod exact;
+mod follow;
 mod identity;
 mod index;
 mod interrupts;

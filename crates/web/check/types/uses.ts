@@ -122,6 +122,7 @@ const wishes: Wishes = {
   timeout: 5,
 };
 const planner: Planner = index.planner();
+planner.follow(repaired);
 const trace = new Trace(true);
 const answer: Answer = planner.find(from, to, wishes, trace);
 if (answer.status === "stopped") facts.push(answer.stoppedBy ?? "", answer.best?.length ?? 0);

@@ -48,13 +48,31 @@ impl Opened {
     }
 
     /// Goes on with other dead ends: by work that follows their difference if these have been repaired to those
-    /// by a few repairs, else as if new.
+    /// by a few repairs, else by a copy. It keeps the memory if their map has the same size.
     pub(in super::super) fn follow(&mut self, dead_ends: Arc<DeadEnds>) {
-        let Some(repairs) = dead_ends.repairs_since(&self.dead_ends) else {
-            *self = Self::new(dead_ends);
+        // The next query closes what is open.
+        if Arc::ptr_eq(&self.dead_ends, &dead_ends) {
             return;
-        };
+        }
         self.close();
+        match dead_ends.repairs_since(&self.dead_ends) {
+            Some(repairs) => self.follow_repairs(repairs),
+            None => self.copy(&dead_ends),
+        }
+        self.dead_ends = dead_ends;
+    }
+
+    fn copy(&mut self, dead_ends: &DeadEnds) {
+        let Self { rows, of_rows, of_columns, .. } = self;
+        rows.clone_from(&dead_ends.rows);
+        for (opened, parts) in [of_rows, of_columns].into_iter().zip(&dead_ends.parts) {
+            parts.shut(rows);
+            opened.rows.clone_from(&dead_ends.rows);
+            parts.shut(&mut opened.rows);
+        }
+    }
+
+    fn follow_repairs(&mut self, repairs: &[Arc<Repair>]) {
         let Self { rows, of_rows, of_columns, .. } = self;
         for Repair { cells, bridges: [in_rows, in_columns] } in repairs.iter().map(Arc::as_ref) {
             of_rows.set_all(in_rows.iter().map(|&[before, _]| before), false, &of_columns.rows, rows);
@@ -68,7 +86,6 @@ impl Opened {
             of_rows.set_all(in_rows.iter().map(|&[_, after]| after), true, &of_columns.rows, rows);
             of_columns.set_all(in_columns.iter().map(|&[_, after]| after), true, &of_rows.rows, rows);
         }
-        self.dead_ends = dead_ends;
     }
 
     /// Whether the same is open.
