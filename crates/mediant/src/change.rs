@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{Change as GridChange, Mismatch, Rectangle, Vertex};
 
-use crate::{error::Error, space::Space};
+use crate::{error::Error, map::Map, space::Space};
 
 /// An edit of a space: the space before, the space after, and the cells between. Indexes are
 /// [repaired](crate::Index::repair) by it: what was prepared of the cells that did not change stays.
@@ -48,9 +48,26 @@ impl Change {
             let (belongs_to, other_belongs_to) = (before.identity(), after.identity());
             return Err(Mismatch { prepared, belongs_to, other, other_belongs_to }.into());
         }
-        let [old, new] = [before, after].map(|space| Arc::clone(space.map().grid()));
+        Ok(Self { after: after.clone().into(), ..Self::to(before, after.map()) })
+    }
+
+    /// The change from a space to that of another map with the same motion: its cells are found by comparing the
+    /// two maps, word by word, and the space after it follows them.
+    ///
+    /// ```
+    /// use mediant::{Change, Map, Motion};
+    ///
+    /// let map = Map::new(40, 30)?;
+    /// let space = map.space(Motion::default())?;
+    /// let change = Change::to(&space, &map.set((3, 4), true)?);
+    /// assert_eq!(change.cells().len(), 1);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    #[must_use]
+    pub fn to(before: &Space, map: &Map) -> Self {
+        let [old, new] = [before.map(), map].map(|map| Arc::clone(map.grid()));
         let change = GridChange::between(old, Arc::clone(&new)).unwrap_or_else(|| GridChange::new(new));
-        Ok(Self { before: before.clone(), after: after.clone().into(), change })
+        Self { before: before.clone(), after: OnceLock::new(), change }
     }
 
     /// The change of a grid, between the spaces of the grid before and after it.

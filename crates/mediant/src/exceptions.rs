@@ -1,10 +1,13 @@
 //! Cells that count otherwise for one query.
 
+use std::sync::Arc;
+
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Answer, Query};
+use mediant_search::{Answer, Limits, Query};
 
 use crate::{
-    choice::Choice, engine::Engine, error::Error, map::Map, planner::Planner, setup::Setup, space::Space,
+    change::Change, choice::Choice, engine::Engine, error::Error, index::Index, map::Map, planner::Planner,
+    space::Space,
 };
 
 /// Cells that count as blocked or as free for one query, whatever the map says: other agents in the way, and
@@ -70,17 +73,53 @@ impl Exceptions {
         self
     }
 
-    /// The space with the exceptions made; `None` if nothing changes.
-    fn space(&self, space: &Space, query: &Query) -> Result<Option<Space>, Error> {
-        let (map, motion) = (space.map(), space.motion());
-        let mut changed = map.edit_cells(self.cells.iter().copied())?;
+    /// The change that the exceptions are; `None` if nothing changes.
+    fn change(&self, space: &Space, query: &Query) -> Result<Option<Change>, Error> {
+        let mut change = space.edit_cells(self.cells.iter().copied())?;
         if self.free_ends {
+            let (map, placement) =
+                (Map::from(Arc::clone(change.of_grid().after())), space.motion().rules.placement());
             let ends = query.starts().iter().chain(query.goals());
-            let shut: Vec<_> =
-                ends.filter_map(|&end| shut_cell(&changed, motion.rules.placement(), end)).collect();
-            changed = changed.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;
+            let shut: Vec<_> = ends.filter_map(|&end| shut_cell(&map, placement, end)).collect();
+            // The map between the two edits is given up, so that the second one takes its place.
+            drop(map);
+            change = change.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;
         }
-        Ok(if changed == *map { None } else { Some(changed.within(query.limits()).space(motion)?) })
+        Ok(if change.of_grid().before().id() == change.of_grid().after().id() { None } else { Some(change) })
+    }
+}
+
+/// What answers queries with exceptions: kept from one to the next.
+pub(crate) struct Excepted {
+    /// The index that is repaired for each of them: the planner's own, or if that would be prepared anew, one
+    /// of an engine that prepares next to nothing.
+    base: Index,
+    /// Between two queries it is on the base.
+    planner: Planner,
+}
+
+impl Excepted {
+    /// The index on which a query is answered after a change, and the one that it is repaired from: `known` if
+    /// there is one.
+    fn index(
+        (own, known): (&Index, Option<&Index>),
+        change: &Change,
+        limits: &Limits,
+    ) -> Result<[Index; 2], Error> {
+        let base = known.unwrap_or(own);
+        if let Some(repaired) = base.repaired_if_it_can_be(change, limits.interrupt())? {
+            return Ok([repaired, base.clone()]);
+        }
+        let smoothing = own.setup().smoothing;
+        let engine = Choice::for_one_path(own.space().motion());
+        let base = own.space().within(limits).prepare_for_one_path(engine)?.with_smoothing(smoothing);
+        Ok([base.repaired(change, limits.interrupt())?, base])
+    }
+
+    /// Continues on the index of a planner that follows to it; `None` if the two are of different engines.
+    pub(crate) fn following(mut self, index: &Index) -> Option<Self> {
+        let is_own = self.base.setup() == index.setup();
+        (is_own && self.planner.follow(index).is_ok()).then(|| Self { base: index.clone(), ..self })
     }
 }
 
@@ -102,9 +141,9 @@ impl Planner {
     /// Answers a query or a query on the map with some cells changed: what [`find`](Self::find) answers
     /// after an edit of these cells, on a planner that was made anew. The planner stays as it is.
     ///
-    /// Nothing that was prepared is used where a cell differs: connected components are found again, and an
-    /// engine that prepares much, or is repaired, is replaced by one that prepares next to nothing
-    /// ([`ExceptedAnswer::searched_by`]).
+    /// The index is [repaired](Index::repair) for the query, by work that follows the cells. Where it would be
+    /// prepared anew instead, an engine that prepares next to nothing answers
+    /// ([`ExceptedAnswer::searched_by`]). What that takes is kept for the next query.
     ///
     /// # Errors
     /// As for [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if
@@ -115,10 +154,24 @@ impl Planner {
         exceptions: &Exceptions,
     ) -> Result<ExceptedAnswer, Error> {
         let query = query.into();
-        let mut other = self.except(&query, exceptions)?;
-        let planner = other.as_mut().unwrap_or(self);
-        let searched_by = planner.index().searched_by();
-        Ok(ExceptedAnswer { answer: planner.find(query)?, searched_by })
+        let Some(change) = exceptions.change(self.index().space(), &query)? else {
+            let searched_by = self.index().searched_by();
+            return Ok(ExceptedAnswer { answer: self.find(query)?, searched_by });
+        };
+        let known = self.excepted.take();
+        let indexes = (self.index(), known.as_ref().map(|known| &known.base));
+        let [index, base] = Excepted::index(indexes, &change, &query.limits())?;
+        let kept = known.and_then(|mut known| known.planner.follow(&index).is_ok().then_some(known.planner));
+        let mut planner = match kept {
+            Some(planner) => planner,
+            None => index.try_planner()?,
+        };
+        let searched_by = index.searched_by();
+        let answer = planner.find(query);
+        // So that nothing holds the map of this query.
+        planner.follow(&base)?;
+        self.excepted = Some(Box::new(Excepted { base, planner }));
+        Ok(ExceptedAnswer { answer: answer?, searched_by })
     }
 
     /// The planner of [`find_except`](Self::find_except), for one who wants its events or its steps; `None`
@@ -128,11 +181,8 @@ impl Planner {
     /// [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if the query's limits stop
     /// what is prepared.
     pub fn except(&self, query: &Query, exceptions: &Exceptions) -> Result<Option<Self>, Error> {
-        let Some(space) = exceptions.space(self.index().space(), query)? else { return Ok(None) };
-        let Setup { engine, smoothing, .. } = self.index().setup();
-        let is_online = engine.kind().capabilities().index.is_none();
-        let engine = if is_online { engine } else { Choice::for_one_path(space.motion()).engine.into() };
-        let index = space.within(query.limits()).prepare_for_one_path(engine)?.with_smoothing(smoothing);
+        let Some(change) = exceptions.change(self.index().space(), query)? else { return Ok(None) };
+        let [index, _] = Excepted::index((self.index(), None), &change, &query.limits())?;
         Ok(Some(index.try_planner()?))
     }
 }

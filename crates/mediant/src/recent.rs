@@ -175,14 +175,17 @@ impl Map {
         let before = self.recent().before().clone();
         let space = self.keep_space(setup.motion, &limits)?;
         let known = before.and_then(|before| Some((before.recent.planners.get(setup)?, before.change)));
-        let index = match known {
+        let planners = match known {
             Some((known, change)) => {
                 let change = Change::of_spaces([known.index().space(), &space], change);
-                known.index().within(&limits).repair(&change)?
+                known.hand_on(&known.index().within(&limits).repair(&change)?)?
             }
-            None => space.within(&limits).prepare(setup.engine)?.with_smoothing(setup.smoothing),
+            None => {
+                let index = space.within(&limits).prepare(setup.engine)?;
+                Planners::new(index.with_smoothing(setup.smoothing))
+            }
         };
-        let planners = Arc::new(Planners::new(index));
+        let planners = Arc::new(planners);
         self.recent().planners.put(*setup, &planners);
         Ok(planners)
     }

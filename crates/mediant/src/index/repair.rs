@@ -38,13 +38,23 @@ impl Index {
         if before == after.identity() {
             return Ok(Self { space: after.clone(), origin: Origin::Unchanged, ..self.clone() });
         }
+        if let Some(repaired) = self.repaired_if_it_can_be(change, interrupt)? {
+            return Ok(repaired);
+        }
+        let source = Source { interrupt, ..self.source() };
+        Ok(Self { setup: self.setup, ..Self::from_source(after, self.setup.engine, source)? })
+    }
+
+    /// The index for the map after a change of its own; `None` if it must be prepared anew.
+    pub(crate) fn repaired_if_it_can_be(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Error> {
+        let (before, after) = (change.before().identity(), change.after());
         let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
         let repaired = if is_of_the_same_size { self.prepared.repaired(change, interrupt)? } else { None };
-        let Some(prepared) = repaired else {
-            let source = Source { interrupt, ..self.source() };
-            let prepared = Self::from_source(after, self.setup.engine, source)?;
-            return Ok(Self { setup: self.setup, ..prepared });
-        };
-        Ok(Self { space: after.clone(), origin: Origin::Repaired, prepared, ..self.clone() })
+        let to = |prepared| Self { space: after.clone(), origin: Origin::Repaired, prepared, ..self.clone() };
+        Ok(repaired.map(to))
     }
 }

@@ -11,9 +11,8 @@ impl Planner {
     /// search that was begun before is forgotten.
     ///
     /// A new planner touches new scratch memory, which takes longer than many queries. One that follows keeps
-    /// its own where the map has the same size, and is ready within a microsecond; Theta\* and Anya, which
-    /// remember more of a map, take some microseconds on 512 × 512 cells. Where the new index searches in
-    /// another way, as subgoals do that keep nothing, the search is made anew.
+    /// its own where the map has the same size, and is ready within some microseconds, mostly within one. Where
+    /// the new index searches in another way, as subgoals do that keep nothing, the search is made anew.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Rectangle};
@@ -46,6 +45,7 @@ impl Planner {
         self.guarantee = if setup.smoothing.is_some() { guarantee.smoothed() } else { guarantee };
         self.begun = None;
         self.asked = Asked { search: None, costs: std::mem::take(&mut self.asked.costs) };
+        self.excepted = self.excepted.take().and_then(|known| known.following(index)).map(Box::new);
         self.index = index.clone();
         Ok(())
     }

@@ -14,6 +14,7 @@ use crate::{
     configured::ConfiguredEngine,
     erased::{Dynamic, Erased},
     error::Error,
+    exceptions::Excepted,
     index::Index,
     labeled::Asked,
     map::Map,
@@ -50,6 +51,8 @@ pub struct Planner {
     guarantee: Guarantee,
     /// The search that was begun last.
     begun: Option<Search>,
+    /// What answered the last query with exceptions.
+    pub(crate) excepted: Option<Box<Excepted>>,
     /// The many-goals search, on an index with hub labels.
     pub(crate) asked: Asked,
 }
@@ -116,6 +119,7 @@ impl Index {
             guarantee: if smoothing.is_some() { guarantee.smoothed() } else { guarantee },
             index: self.clone(),
             begun: None,
+            excepted: None,
             asked: Asked::default(),
         }
     }

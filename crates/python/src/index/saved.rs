@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Change, Limits, Setup};
+use mediant::{Change, Limits, Map, Setup};
 use pyo3::{
     prelude::*,
     types::{PyBytes, PyDict, PyTuple},
@@ -16,6 +16,9 @@ use crate::{
     grid::Grid,
     keywords::{Keywords, OPTIONS},
 };
+
+/// The most tiles of 64 × 64 cells that change while Ctrl-C is not looked for: some 10 ms.
+const MOST_TILES: usize = 1_000;
 
 #[pymethods]
 impl Index {
@@ -83,8 +86,13 @@ impl Index {
         let map = changed.map().clone();
         let work = move |limits: &Limits| {
             let index = planners.index();
-            let space = map.within(limits).space(index.setup().motion)?;
-            let change = Change::between(index.space(), &space)?;
+            let mut change = Change::to(index.space(), &map);
+            let size = |map: &Map| (map.width(), map.height());
+            if change.cells().len() > MOST_TILES || size(&map) != size(index.space().map()) {
+                // Following the change would take longer than a second look for Ctrl-C may.
+                let space = map.within(limits).space(index.setup().motion)?;
+                change = Change::between(index.space(), &space)?;
+            }
             let repaired = in_pool(None, || index.within(limits).repair(&change))?;
             planners.hand_on(&repaired)
         };
