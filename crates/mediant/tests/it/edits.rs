@@ -1,6 +1,6 @@
 //! Maps that change: whatever was prepared follows a chain of edits, and answers as if it were made anew.
 
-use mediant::{Answer, Ends, Engine, Index, K, Map, Motion, PlacementKind, Rules, Setup, Space};
+use mediant::{Answer, Ends, Engine, Index, K, Map, Motion, PlacementKind, Planner, Rules, Setup, Space};
 use mediant_grid::{Change, Grid};
 use mediant_oracle::{Rng, on_all_cores, random_change, random_vertex, seeds, suite_grid};
 
@@ -36,15 +36,16 @@ fn setups(number: u64) -> Vec<Setup> {
         .collect()
 }
 
-/// Checks that two indexes of one space answer alike.
-fn check_same([repaired, new]: [&Index; 2], queries: &[Ends], message: &str) {
+/// Checks that an index that was repaired, and the planner that follows it, answer as a new index.
+fn check_same(one: &mut Planner, new: &Index, queries: &[Ends], message: &str) {
+    let repaired = one.index();
     let sense = sense(new.setup().engine.kind());
     if sense == Sense::Bytes {
         let [repaired, new] = [repaired, new].map(|index| index.to_bytes().expect("it is saved"));
         assert!(repaired == new, "{message}: other bytes");
     }
     let space = new.space();
-    let (mut one, mut other) = (repaired.planner(), new.planner());
+    let mut other = new.planner();
     for &query in queries {
         let message = format!("{message}, {} to {}", query.start, query.goal);
         match (one.find(query), other.find(query)) {
@@ -69,7 +70,7 @@ fn every_index_follows_a_chain_of_edits() {
         for setup in setups(seed) {
             let mut space = setup.space(&map).expect("it is searched");
             let mut index = setup.prepare(&space).expect("a small map");
-            let first = (space.clone(), index.clone());
+            let (first, mut planner) = ((space.clone(), index.clone()), index.planner());
             for step in 0..12 {
                 let change = random_change(&mut rng, space.map().grid());
                 let message = format!("seed {seed}, {setup}, edit {step}: {:?}", change.cells());
@@ -78,15 +79,14 @@ fn every_index_follows_a_chain_of_edits() {
                 space = change.after().clone();
                 let new =
                     setup.prepare(&setup.space(space.map()).expect("it is searched")).expect("a small map");
-                check_same([&index, &new], &queries(&mut rng, &space), &message);
+                planner.follow(&index).unwrap_or_else(|error| panic!("{message}: {error}"));
+                check_same(&mut planner, &new, &queries(&mut rng, &space), &message);
             }
             // The first version is held all the time, and still answers for its own map.
             let new = setup.prepare(&first.0).expect("a small map");
-            check_same(
-                [&first.1, &new],
-                &queries(&mut rng, &first.0),
-                &format!("seed {seed}, {setup}, the first"),
-            );
+            planner.follow(&first.1).unwrap_or_else(|error| panic!("seed {seed}, {setup}: {error}"));
+            let message = format!("seed {seed}, {setup}, the first");
+            check_same(&mut planner, &new, &queries(&mut rng, &first.0), &message);
         }
     });
 }
