@@ -70,9 +70,47 @@
 //! ```
 //!
 //! Each thread makes a planner of its own from one index, or all share [`Planners`]. Maps, spaces and indexes
-//! never change, their clones share them, and all threads may use them. An edit makes another map
-//! ([`Map::set`], [`Map::edit`]), for which [`Index::repair`] makes the next index. Planners
-//! [follow](Planner::follow) to it, and keep their scratch memory.
+//! never change, their clones share them, and all threads may use them. An edit makes another map.
+//!
+//! # Maps that change
+//!
+//! [`Space::edit`] returns a [`Change`]: the space before, the space after, and the cells between. Whatever was
+//! prepared follows it by work that follows the cells, not the map, and shares the memory of what did not
+//! change; the space before stays valid for who holds it. [`Index::repair`] makes the next index, and
+//! [`Planner::follow`] takes a planner to it with its scratch memory. [`Map::edit`] and [`Map::set`] do the same
+//! for [`Map::path`] by themselves.
+//!
+//! ```
+//! use mediant::{Engine, Map, Motion, Rectangle};
+//!
+//! let mut space = Map::from_fn(64, 64, |x, _| x == 30)?.space(Motion::default())?;
+//! let mut index = space.prepare(Engine::JpsBlock)?;
+//! let mut planner = index.planner();
+//! for is_closed in [false, true] {
+//!     let change = space.edit(Rectangle::new(30, 20, 1, 2), |_, _| is_closed)?;
+//!     index = index.repair(&change)?;
+//!     planner.follow(&index)?;
+//!     space = change.after().clone();
+//!     assert_eq!(planner.path((0, 0), (60, 50))?.is_none(), is_closed);
+//! }
+//! # Ok::<(), mediant::Error>(())
+//! ```
+//!
+//! A repaired index equals a new one in one of three senses: saved, it has the same bytes; it finds the same
+//! paths; or paths that cost the same, since it may leave out less than a new one.
+//!
+//! | engine | what follows an edit | the same |
+//! |---|---|---|
+//! | `astar`, `dijkstra`, `wavefront`, `theta`, `lazy-theta` | the space alone | paths |
+//! | `canonical`, `jps` | the space alone up to k = 3; above, distances to obstacles are found anew | paths |
+//! | `jps-block` | where jumps stop, and dead ends | costs |
+//! | `anya` | dead ends, and rooms behind single doors | costs |
+//! | `hpa`, `chpa` | clusters, segments | bytes |
+//! | `jps-plus`, `subgoal`, `subgoal-theta` | nothing: they are prepared anew | bytes |
+//!
+//! An edit of one cell takes 5 to 20 µs with all of that on 512 × 512 cells, 40 to 100 µs with HPA*, and at
+//! most about twice that on 2048 × 2048. A path is [checked](Change::check) against a change, kept while it is
+//! a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
 //!
 //! # Errors
 //!
@@ -104,7 +142,7 @@
 //! | lead many agents to one goal | [`Field`] |
 //! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
-//! | ask whether a path still holds | [`Space::check`] |
+//! | ask whether a path still holds, replan only when needed | [`Space::check`], [`Change::check`], [`Planner::replan`] |
 //! | make paths shorter, at any angle | [`Smoothing`], [`Index::with_smoothing`] |
 //! | choose engines and options by text | [`Setup`], [`options`] |
 //!
