@@ -40,8 +40,8 @@ impl<M> Change<M> {
         &self.after
     }
 
-    /// Rectangles on the map outside of which the two are equal; empty if nothing was changed. Each lies in one
-    /// block of 64 × 64 cells, and the cells that one edit changes in a block have one.
+    /// Rectangles on the map outside of which the two are equal; empty if nothing was changed. Each lies in
+    /// one block of 64 × 64 cells, and the cells that one edit changes in a block have one.
     #[must_use]
     pub fn cells(&self) -> &[Rectangle] {
         &self.cells

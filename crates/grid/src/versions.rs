@@ -27,7 +27,7 @@ pub struct Versioned<W> {
     line: OnceLock<Arc<Line<W>>>,
 }
 
-/// What all versions that descend from one array have in common.
+/// The part that all versions which descend from one array have in common.
 struct Line<W>(Mutex<Shared<W>>);
 
 struct Shared<W> {
@@ -316,7 +316,7 @@ mod tests {
         assert_eq!((&*copy, copy.as_ptr()), (&[1, 2, 3][..], place));
         copy.clone_from(&Versioned::from(vec![4]));
         assert_eq!(*copy, [4]);
-        // What the copy had been is no spare of the line.
+        // The words that the copy had are no spare of the line.
         drop(copy);
         let next = first.edit();
         assert_eq!(next.words(), [1, 2, 3]);

@@ -15,8 +15,8 @@ use crate::{error::Error, map::Map, space::Space};
 /// let space = Map::from_fn(40, 30, |x, _| x == 20)?.space(Motion::centers(3))?;
 /// let index = space.prepare(Engine::Hpa)?;
 /// // A door opens, and two posts are set far away: one change.
-/// let change = space.edit(Rectangle::new(20, 7, 1, 2), |_, _| false)?.edit_cells([((0, 29), true), ((1, 0), true)])?;
-/// let index = index.repair(&change)?;
+/// let change = space.edit(Rectangle::new(20, 7, 1, 2), |_, _| false)?.edit_cells([((0, 29), true), ((1, 0),
+/// true)])?; let index = index.repair(&change)?;
 /// assert_eq!(index.origin(), Origin::Repaired);
 /// assert!(change.after().path((0, 0), (39, 0))?.is_some());
 /// # Ok::<(), mediant::Error>(())
@@ -51,8 +51,8 @@ impl Change {
         Ok(Self { after: after.clone().into(), ..Self::to(before, after.map()) })
     }
 
-    /// The change from a space to that of another map with the same motion: its cells are found by comparing the
-    /// two maps, word by word, and the space after it follows them.
+    /// The change from a space to that of another map with the same motion: its cells are found by comparing
+    /// the two maps, word by word, and the space after it follows them.
     ///
     /// ```
     /// use mediant::{Change, Map, Motion};

@@ -89,7 +89,7 @@ impl Exceptions {
     }
 }
 
-/// What answers queries with exceptions: kept from one to the next.
+/// The planner that answers queries with exceptions: kept from one to the next.
 pub(crate) struct Excepted {
     /// The index that is repaired for each of them: the planner's own, or if that would be prepared anew, one
     /// of an engine that prepares next to nothing.
@@ -99,8 +99,8 @@ pub(crate) struct Excepted {
 }
 
 impl Excepted {
-    /// The index on which a query is answered after a change, and the one that it is repaired from: `known` if
-    /// there is one.
+    /// The index on which a query is answered after a change, and the one that it is repaired from: `known`
+    /// if there is one.
     fn index(
         (own, known): (&Index, Option<&Index>),
         change: &Change,
@@ -141,8 +141,8 @@ impl Planner {
     /// Answers a query or a query on the map with some cells changed: what [`find`](Self::find) answers
     /// after an edit of these cells, on a planner that was made anew. The planner stays as it is.
     ///
-    /// The index is [repaired](Index::repair) for the query, by work that follows the cells. Where it would be
-    /// prepared anew instead, an engine that prepares next to nothing answers
+    /// The index is [repaired](Index::repair) for the query, by work that follows the cells. Where it would
+    /// be prepared anew instead, an engine that prepares next to nothing answers
     /// ([`ExceptedAnswer::searched_by`]). What that takes is kept for the next query.
     ///
     /// # Errors

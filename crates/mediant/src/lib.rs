@@ -74,11 +74,11 @@
 //!
 //! # Maps that change
 //!
-//! [`Space::edit`] returns a [`Change`]: the space before, the space after, and the cells between. Whatever was
-//! prepared follows it by work that follows the cells, not the map, and shares the memory of what did not
+//! [`Space::edit`] returns a [`Change`]: the space before, the space after, and the cells between. Whatever
+//! was prepared follows it by work that follows the cells, not the map, and shares the memory of what did not
 //! change; the space before stays valid for who holds it. [`Index::repair`] makes the next index, and
-//! [`Planner::follow`] takes a planner to it with its scratch memory. [`Map::edit`] and [`Map::set`] do the same
-//! for [`Map::path`] by themselves.
+//! [`Planner::follow`] takes a planner to it with its scratch memory. [`Map::edit`] and [`Map::set`] do the
+//! same for [`Map::path`] by themselves.
 //!
 //! ```
 //! use mediant::{Engine, Map, Motion, Rectangle};
@@ -109,8 +109,8 @@
 //! | `jps-plus`, `subgoal`, `subgoal-theta` | nothing: they are prepared anew | bytes |
 //!
 //! An edit of one cell takes 5 to 20 µs with all of that on 512 × 512 cells, 40 to 100 µs with HPA*, and at
-//! most about twice that on 2048 × 2048. A path is [checked](Change::check) against a change, kept while it is
-//! a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
+//! most about twice that on 2048 × 2048. A path is [checked](Change::check) against a change, kept while it
+//! is a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
 //!
 //! # Errors
 //!

@@ -38,8 +38,8 @@ impl Space {
 }
 
 impl Change {
-    /// [`Space::check`] in the space after the change, of a path that held before it: with the same result, but
-    /// only segments near the changed cells are looked at.
+    /// [`Space::check`] in the space after the change, of a path that held before it: with the same result,
+    /// but only segments near the changed cells are looked at.
     ///
     /// ```
     /// use mediant::{Map, Motion};

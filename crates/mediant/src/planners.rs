@@ -19,8 +19,8 @@ use crate::{error::Error, index::Index, planner::Planner};
 /// It is `Send` and `Sync`, and its methods take `&self`: it can be a `static`, stand in an `Arc`, or be a
 /// resource of Bevy, where a [`Planner`] cannot.
 ///
-/// Its index never changes while it is shared, so that a query or a batch has one answer. After an edit of the
-/// map its owner lets it [`follow`](Self::follow); who shares it makes the next one, to which this one
+/// Its index never changes while it is shared, so that a query or a batch has one answer. After an edit of
+/// the map its owner lets it [`follow`](Self::follow); who shares it makes the next one, to which this one
 /// [hands its planners on](Self::hand_on).
 ///
 /// ```
@@ -129,8 +129,8 @@ impl Planners {
     }
 
     /// Planners on another index of the same engine and motion, to which the idle ones of these
-    /// [follow](Planner::follow): for who shares these with threads that still ask. These stay on their index,
-    /// and make planners anew if they are asked again.
+    /// [follow](Planner::follow): for who shares these with threads that still ask. These stay on their
+    /// index, and make planners anew if they are asked again.
     ///
     /// ```
     /// use std::sync::{Arc, RwLock};

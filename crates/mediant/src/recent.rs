@@ -36,7 +36,7 @@ pub(crate) struct Recent {
     before: Mutex<Option<Before>>,
 }
 
-/// What is kept with an earlier map, and the change since.
+/// The values that are kept with an earlier map, and the change since.
 #[derive(Clone)]
 struct Before {
     recent: Arc<Recent>,

@@ -5,7 +5,7 @@ use mediant_search::{Answer, Ends, Path, QueryError};
 
 use crate::{change::Change, error::Error, planner::Planner};
 
-/// What became of a path after a change of the map: see [`Planner::replan`].
+/// The fate of a path after a change of the map: see [`Planner::replan`].
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
 pub enum Replanned {
@@ -22,13 +22,13 @@ pub enum Replanned {
 const GAIN: f64 = 1.0 / (1_u64 << 30) as f64;
 
 impl Planner {
-    /// What becomes of a path of this planner after a change of the map. An agent that has gone a part of its
-    /// way hands over the [rest](Path::rest). The planner answers on an index of the space after the change.
+    /// Keeps or replaces a path of this planner after a change of the map. An agent that has gone a part of
+    /// its way hands over the [rest](Path::rest). The planner answers on an index of the space after the change.
     ///
     /// The rule:
     /// 1. If the path does not hold any more, a new one is searched.
-    /// 2. If it holds, and is no longer than [any way through freed cells](Change::least_by_freed), it is kept
-    ///    without a search. Was it a shortest path before, it is one now.
+    /// 2. If it holds, and is no longer than [any way through freed cells](Change::least_by_freed), it is
+    ///    kept without a search. Was it a shortest path before, it is one now.
     /// 3. Otherwise a new one is searched, and taken only if it is shorter, by more than 2⁻³⁰ of the length.
     ///
     /// ```
@@ -48,8 +48,8 @@ impl Planner {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for a change that leads to another space than the planner's; [`Error::Query`] where
-    /// a new path is searched from an end that is blocked or outside the map.
+    /// [`Error::Mismatch`] for a change that leads to another space than the planner's; [`Error::Query`]
+    /// where a new path is searched from an end that is blocked or outside the map.
     pub fn replan(&mut self, path: &Path, change: &Change) -> Result<Replanned, Error> {
         let (belongs_to, after) = (self.index().identity(), change.after().identity());
         if belongs_to != after {
@@ -71,9 +71,9 @@ impl Planner {
         })
     }
 
-    /// A path that holds, from one that may not: where it breaks, a new path leads from the last waypoint up to
-    /// which it can be followed to its goal. That takes less than a search from the start, but may be longer
-    /// than the shortest path. If the path holds, it is the answer.
+    /// A path that holds, from one that may not: where it breaks, a new path leads from the last waypoint up
+    /// to which it can be followed to its goal. That takes less than a search from the start, but may be
+    /// longer than the shortest path. If the path holds, it is the answer.
     ///
     /// There is a path exactly if there is one from start to goal.
     ///

@@ -167,8 +167,8 @@ fn eight_planners_share_one_index() {
     }
 }
 
-/// A planner that follows to the map after an edit and back takes no more memory than the paths of its queries:
-/// its open list is warm, and so are the pages that it touches.
+/// A planner that follows to the map after an edit and back takes no more memory than the paths of its
+/// queries: its open list is warm, and so are the pages that it touches.
 fn follows_in_its_memory(space: &Space, index: &Index) {
     // A cell that is blocked, so that no subgoal is added.
     let change = space.edit_cells([((1, 2), false)]).expect("a cell of the map");

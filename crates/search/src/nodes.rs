@@ -90,8 +90,8 @@ impl<N: ParentPointer> NodeStore<N> {
         Self { nodes: vec![N::UNKNOWN; BLOCK], blocks, len, generation: 1 }
     }
 
-    /// Forgets all nodes, and becomes a store for vertex ids below `len`. The memory is kept if it was one for
-    /// as many.
+    /// Forgets all nodes, and becomes a store for vertex ids below `len`. The memory is kept if it was one
+    /// for as many.
     pub fn fit(&mut self, len: usize) {
         if self.len == len {
             self.start_search();

@@ -48,8 +48,8 @@ impl<E: Copy + Default> SearchTree<E> {
         count.saturating_mul(size_of::<TreeNode<E>>())
     }
 
-    /// Forgets all nodes, and becomes a tree for node numbers below `count`. The memory is kept if it has room
-    /// for them, and at most twice as much.
+    /// Forgets all nodes, and becomes a tree for node numbers below `count`. The memory is kept if it has
+    /// room for them, and at most twice as much.
     pub fn fit(&mut self, count: usize) {
         if (self.nodes.len() / 2..=self.nodes.len()).contains(&count) {
             self.start_search();

@@ -6,9 +6,9 @@ use crate::{arguments::object, errors::raised, index::Index, memory, planner::Pl
 
 #[wasm_bindgen]
 impl Planner {
-    /// Continues on another index of the same engine and motion, such as a repaired one, and forgets the search
-    /// that was begun last. It answers as a new planner of that index, but keeps its scratch memory where the
-    /// map has the same size.
+    /// Continues on another index of the same engine and motion, such as a repaired one, and forgets the
+    /// search that was begun last. It answers as a new planner of that index, but keeps its scratch memory
+    /// where the map has the same size.
     ///
     /// @throws MediantError `engine-option` for an index of another engine, `mismatch` for one of other rules
     /// or another k, `memory` if there is no room for a larger map. The planner stays as it is then.

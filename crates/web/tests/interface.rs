@@ -167,6 +167,20 @@ fn spaces_and_indexes() {
     assert_eq!(get(&answer, "status"), "unreachable");
     let other = ok(&grid, "space", &[json(r#"{"k": 2}"#)]);
     assert_eq!(thrown(&hpa, "repair", &[other]), "MediantError mismatch");
+    // The error of a listener comes out, and the space is as it was.
+    let throws = Function::new_no_args("throw new Error('enough')").into();
+    let error = call(&space, "prepare", &[NONE, NONE, throws]).expect_err("the listener throws");
+    assert_eq!(get(&error, "message"), "enough");
+    ok(&space, "prepare", &[]);
+}
+
+#[test]
+fn planners_follow() {
+    let space = ok(&grid(), "space", &[json(r#"{"k": 3}"#)]);
+    let edited = ok(&space, "edit", &[2.into(), 1.into(), 1.into(), 1.into(), bytes(&[1])]);
+    let hpa = ok(&space, "prepare", &["hpa".into(), json(r#"{"side": 4}"#)]);
+    let repaired = ok(&hpa, "repair", std::slice::from_ref(&edited));
+    let answer = ok(&ok(&repaired, "planner", &[]), "find", &[at(0, 0), at(7, 0)]);
     // A planner of the index before goes on with the repaired one.
     let follower = ok(&hpa, "planner", &[]);
     ok(&follower, "begin", &[at(0, 0), at(7, 0)]);
@@ -177,11 +191,6 @@ fn spaces_and_indexes() {
     let astar = ok(&space, "prepare", &["astar".into()]);
     assert_eq!(thrown(&follower, "follow", &[astar]), "MediantError engine-option");
     assert_eq!(thrown(&follower, "follow", &[space.clone()]), "TypeError ");
-    // The error of a listener comes out, and the space is as it was.
-    let throws = Function::new_no_args("throw new Error('enough')").into();
-    let error = call(&space, "prepare", &[NONE, NONE, throws]).expect_err("the listener throws");
-    assert_eq!(get(&error, "message"), "enough");
-    ok(&space, "prepare", &[]);
 }
 
 #[test]

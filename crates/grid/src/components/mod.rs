@@ -166,8 +166,8 @@ impl Components {
         after
     }
 
-    /// Finds the regions of a tile anew, in which cells of a rectangle have changed. Returns whether they meet
-    /// those around as before.
+    /// Finds the regions of a tile anew, in which cells of a rectangle have changed. Returns whether they
+    /// meet those around as before.
     fn repair(&mut self, at: (usize, usize), cells: Rectangle, map_before: &Grid) -> bool {
         let before = Arc::clone(&self.tiles[at.1][at.0]);
         let within = |first: u32, length: u32| [first % SIDE as u32, (first + length - 1) % SIDE as u32];

@@ -1,7 +1,7 @@
 //! A small change within a tile that joins and parts nothing.
 //!
-//! Most edits are such. Whether one is, is seen in the box of cells around it: if the cells at the edge of the
-//! box, which did not change, are joined within the box as before, then all cells beyond the change are
+//! Most edits are such. Whether one is, is seen in the box of cells around it: if the cells at the edge of
+//! the box, which did not change, are joined within the box as before, then all cells beyond the change are
 //! joined as before, and keep their regions.
 
 use super::{
@@ -45,9 +45,9 @@ impl Box8 {
 }
 
 impl Tile {
-    /// The tile after a change that joins and parts nothing: only labels in the changed rows differ. `None` for
-    /// any other change, a large one, one at the border, and one that makes or ends a region. `old` and `new`
-    /// are the free cells of a row.
+    /// The tile after a change that joins and parts nothing: only labels in the changed rows differ. `None`
+    /// for any other change, a large one, one at the border, and one that makes or ends a region. `old` and
+    /// `new` are the free cells of a row.
     pub(super) fn patched(
         &self,
         Changed { rows: [top, bottom], columns: [left, right] }: Changed,

@@ -25,8 +25,8 @@ pub(super) struct Tile {
     /// The free cells of the border, by [`Side`].
     border: [u64; 4],
     height: u8,
-    /// Where regions meet those of the tiles in the first four [`DIRECTIONS`], in order and each pair once. The
-    /// tiles in the others keep their contacts with this one.
+    /// Where regions meet those of the tiles in the first four [`DIRECTIONS`], in order and each pair once.
+    /// The tiles in the others keep their contacts with this one.
     pub(super) contacts: [Arc<[Contact]>; 4],
 }
 

@@ -61,8 +61,8 @@ impl GridEdit {
         *bits = *bits & !bit | if blocked { bit } else { 0 };
     }
 
-    /// Gives the cells that `mask` names of the 64 of row y from column x on, a multiple of 64, these bits. All
-    /// must lie on the map.
+    /// Gives the cells that `mask` names of the 64 of row y from column x on, a multiple of 64, these bits.
+    /// All must lie on the map.
     fn set_word(&mut self, at: (u32, u32), mask: u64, bits: u64) {
         let words = self.rows.set_bits(at, mask, bits);
         let mut changed = words[0] ^ words[1];

@@ -135,8 +135,8 @@ where
         })
     }
 
-    /// Continues on another grid graph and its index: those of a map after a change. The search that was begun
-    /// last is forgotten. The scratch memory is kept if the map has the same size.
+    /// Continues on another grid graph and its index: those of a map after a change. The search that was
+    /// begun last is forgotten. The scratch memory is kept if the map has the same size.
     ///
     /// # Errors
     /// As for [`new`](Self::new). Nothing is changed then.

@@ -58,8 +58,8 @@ impl ClusterGraph {
         Self::interruptible(grid_graph, clustering, &Interrupt::NEVER)
     }
 
-    /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster of the lowest
-    /// level, and for each cluster of the others.
+    /// [`new`](Self::new), which an interrupt can stop; it asks for each search within a cluster of the
+    /// lowest level, and for each cluster of the others.
     ///
     /// # Errors
     /// As for [`new`](Self::new), and [`HierarchyError::Interrupted`].

@@ -129,8 +129,8 @@ where
         })
     }
 
-    /// Continues on another grid graph and its index: those of a map after a change. The search that was begun
-    /// last is forgotten. The scratch memory is kept if there is room for the nodes.
+    /// Continues on another grid graph and its index: those of a map after a change. The search that was
+    /// begun last is forgotten. The scratch memory is kept if there is room for the nodes.
     ///
     /// # Errors
     /// As for [`new`](Self::new). Nothing is changed then.

@@ -7,8 +7,8 @@ use crate::{change::Change, engines::Source, error::Error, never::NEVER};
 
 impl Index {
     /// The index for the map after a change, by work that follows the change where the engine's index can be
-    /// repaired, else prepared anew; [`origin`](Self::origin) says which it was. This index stays as it is. In
-    /// which sense a repaired index equals a new one is [told for each
+    /// repaired, else prepared anew; [`origin`](Self::origin) says which it was. This index stays as it is.
+    /// In which sense a repaired index equals a new one is [told for each
     /// engine](crate#maps-that-change).
     ///
     /// ```

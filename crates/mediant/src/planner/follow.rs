@@ -6,13 +6,14 @@ use super::{Planner, smoother};
 use crate::{error::Error, index::Index, labeled::Asked, memory_check, setup_error::SetupError};
 
 impl Planner {
-    /// Continues on another index of the same engine and motion: the one for the map after an edit. It answers
-    /// as a new planner of that index, with its options and its smoothing, by the same paths and counts. A
-    /// search that was begun before is forgotten.
+    /// Continues on another index of the same engine and motion: the one for the map after an edit. It
+    /// answers as a new planner of that index, with its options and its smoothing, by the same paths and
+    /// counts. A search that was begun before is forgotten.
     ///
     /// A new planner touches new scratch memory, which takes longer than many queries. One that follows keeps
-    /// its own where the map has the same size, and is ready within some microseconds, mostly within one. Where
-    /// the new index searches in another way, as subgoals do that keep nothing, the search is made anew.
+    /// its own where the map has the same size, and is ready within some microseconds, mostly within one.
+    /// Where the new index searches in another way, as subgoals do that keep nothing, the search is made
+    /// anew.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Rectangle};

@@ -51,7 +51,7 @@ pub struct Planner {
     guarantee: Guarantee,
     /// The search that was begun last.
     begun: Option<Search>,
-    /// What answered the last query with exceptions.
+    /// The planner that answered the last query with exceptions.
     pub(crate) excepted: Option<Box<Excepted>>,
     /// The many-goals search, on an index with hub labels.
     pub(crate) asked: Asked,

@@ -3,16 +3,15 @@
 use std::sync::Arc;
 
 use mediant::{
-    Answer, Change, Choice, CornerRule, Demand, DiagonalGap, Ends, Engine, Error, ErrorCode, K, Map, Motion,
-    Origin, Path, Planner, Query, Rectangle, Rules, Setup, Smoothing, Space, Vertex,
+    Answer, Choice, CornerRule, Demand, DiagonalGap, Ends, Engine, Error, ErrorCode, K, Map, Motion, Path,
+    Planner, Query, Rules, Setup, Smoothing, Space, Vertex,
     errors::{BrokenPath, QueryError},
     files::MapOptions,
     grid::Identity,
-    options::{EngineName, Variant},
+    options::EngineName,
     search::{Counters, End, Observer},
 };
 use mediant_formats::IndexFile;
-use mediant_oracle::{Rng, caves};
 
 use super::{k, map};
 
@@ -260,104 +259,6 @@ fn names_are_read_as_people_write_them() {
     assert!(
         error.starts_with("expected one of auto, astar, dijkstra, ") && error.ends_with(", found `warp`")
     );
-}
-
-/// Whether the index of a setup follows an edit. Above k = 3 pruning rules have tables of the map.
-fn is_repaired(setup: Setup) -> bool {
-    use Engine as E;
-    match setup.engine.kind() {
-        E::AStar | E::Dijkstra | E::Wavefront | E::Theta | E::LazyTheta => true,
-        E::JpsBlock | E::Anya | E::Hpa | E::Chpa => true,
-        E::Jps | E::Canonical => setup.k() <= K::N8 || setup.engine.variant() == Some(Variant::Paper),
-        _ => false,
-    }
-}
-
-/// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
-/// large, and says how it came about. That of Anya may leave out less, but paths cost the same.
-#[test]
-fn repaired_indexes_are_as_good_as_new_ones() {
-    let mut rng = Rng::new(16);
-    for motion in
-        [Motion::centers(K::N8), Motion::centers(K::N4), Motion::corners(K::N16), Motion::corners(K::ANY)]
-    {
-        let mut space = Map::from(caves(&mut rng, 50, 40)).space(motion).expect("a space");
-        let mut indexes: Vec<_> = Setup::all(motion)
-            .map(|setup| setup.prepare(&space).unwrap_or_else(|error| panic!("{setup}: {error}")))
-            .collect();
-        for edit in 0..3 {
-            let mut side = |length| rng.below(length);
-            let at = Rectangle { x: side(50), y: side(40), width: side(20), height: side(9) };
-            let before = space.clone();
-            let mut change =
-                before.edit(at, |x, y| (x * 7 + y * 3 + edit) % 5 == 0).expect("cells of the map");
-            // One cell far away, and then what is found by comparing the maps.
-            if edit > 0 {
-                change = change.edit_cells([((0, 0), edit == 1)]).expect("a cell of the map");
-            }
-            space = change.after().clone();
-            if edit == 2 {
-                change = Change::between(&before, &space).expect("the same motion");
-            }
-            for index in &mut indexes {
-                let (setup, is_same) = (index.setup(), index.identity() == space.identity());
-                *index = index.repair(&change).unwrap_or_else(|error| panic!("{setup}: {error}"));
-                let anew = setup.prepare(&space).expect("as before");
-                let is_anya = setup.engine.kind() == Engine::Anya;
-                let is_repaired = is_repaired(setup);
-                let origin = match (is_same, is_repaired) {
-                    (true, _) => Origin::Unchanged,
-                    (false, true) => Origin::Repaired,
-                    (false, false) => Origin::Prepared,
-                };
-                let same = index.repair(&Change::new(index.space())).expect("the same space");
-                assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
-                assert_eq!((index.setup(), index.origin()), (setup, origin));
-                assert_eq!(index.identity(), space.identity());
-                assert!(is_anya || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
-                assert_eq!(index.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
-                let (mut repaired, mut new) = (index.planner(), anew.planner());
-                for _ in 0..8 {
-                    let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
-                    let query = Ends::new(end(), end());
-                    if is_anya {
-                        let [found, known] = [&mut repaired, &mut new]
-                            .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
-                        let is_same = match (&found, &known) {
-                            (Ok(found), Ok(known)) => (found - known).abs() < 1e-9 * (1.0 + known.abs()),
-                            (found, known) => found == known,
-                        };
-                        assert!(is_same, "{setup}, {query:?}: {found:?}, {known:?}");
-                        continue;
-                    }
-                    assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
-                }
-            }
-        }
-        // A map of another size shares nothing with the last one.
-        let other = map().space(motion).expect("a space");
-        for index in indexes {
-            let change = Change::between(index.space(), &other).expect("the same motion");
-            let index = index.repair(&change).expect("its map");
-            assert_eq!((index.origin(), index.identity()), (Origin::Prepared, other.identity()));
-        }
-    }
-}
-
-/// An index that was read keeps its shape when it is made anew for a changed map.
-#[test]
-fn repaired_indexes_keep_their_shape() {
-    let space = map().space(Motion::centers(K::N8)).expect("a space");
-    let larger = Map::from_fn(40, 40, |x, y| x == y && x != 9).expect("a map").space(Motion::centers(K::N8));
-    let larger = larger.expect("a space");
-    for text in ["hpa,side=4,levels=1", "chpa,side=5", "subgoal,levels=2"] {
-        let setup: Setup = text.parse().expect("a setup");
-        let bytes = setup.prepare(&space).and_then(|index| index.to_bytes()).expect("an index");
-        let change = Change::between(&space, &larger).expect("the same motion");
-        let read = space.index_from_bytes(bytes).expect("its bytes").repair(&change).expect("its map");
-        let anew = setup.prepare(&larger).expect("an index");
-        assert_eq!(read.to_bytes().ok(), anew.to_bytes().ok(), "{text}");
-    }
 }
 
 /// A file says for which rules and k its index is: a map alone can read it.

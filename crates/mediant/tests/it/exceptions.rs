@@ -85,7 +85,7 @@ fn check(seed: u64) -> [usize; 2] {
     let mut counts = [0, 0];
     for setup in Setup::all(Motion::new(k, rules)) {
         let mut planner = setup.planner(&map).expect("a planner");
-        // What one query makes serves the next.
+        // A query leaves its planner for the next.
         for _ in 0..3 {
             check_one(&mut planner, setup, (&map, &grid), (rng, seed), &mut counts);
         }

@@ -115,9 +115,9 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
         Self { opened, ..self }
     }
 
-    /// Goes on with another map under the same rule, and without its dead ends if some are given, but with the
-    /// scratch memory that this planner has. If its dead ends were [repaired](DeadEnds::repaired) to these, it
-    /// follows them by work that follows the repair. The last search is forgotten.
+    /// Goes on with another map under the same rule, and without its dead ends if some are given, but with
+    /// the scratch memory that this planner has. If its dead ends were [repaired](DeadEnds::repaired) to
+    /// these, it follows them by work that follows the repair. The last search is forgotten.
     ///
     /// # Errors
     /// [`Mismatch`] for a free space of another rule, and for dead ends of another map or rule of motion.

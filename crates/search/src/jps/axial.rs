@@ -271,7 +271,7 @@ impl AxialStops {
                 words.extend((0..per_line as i32).map(|word| {
                     let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
                     let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
-                    // What is read beyond the end of the line is no part of it.
+                    // Bits beyond the end of the line are no part of it.
                     let dead = dead | u64::MAX.checked_shl(length - 64 * word as u32).unwrap_or(0);
                     [jump | dead, dead]
                 }));

@@ -169,8 +169,8 @@ pub(super) struct DiagonalEdit<'s> {
 }
 
 impl DiagonalEdit<'_> {
-    /// Changes what is said of a vertex of the map and an odd move: whether it stops the jump, and whether the
-    /// first and the second axial jump come to a jump point from there.
+    /// Changes what is said of a vertex of the map and an odd move: whether it stops the jump, and whether
+    /// the first and the second axial jump come to a jump point from there.
     pub(super) fn change(&mut self, at: Vertex, index: usize, next: impl FnOnce([bool; 3]) -> [bool; 3]) {
         let place = self.before.place(at, index);
         let (word, bit) = ((place >> 6) as usize, place & 63);

@@ -3,7 +3,7 @@
 //! A bit of the [planes of axial jumps](super::axial) depends on the cells around its vertex alone. So it can
 //! change only in the *zones*: the vertices around which the pattern of cells changes.
 //!
-//! What a [diagonal plane](super::diagonals) says of a vertex depends on these cells as well, and on whether
+//! The bits of a vertex in a [diagonal plane](super::diagonals) depend on these cells as well, and on whether
 //! the two axial jumps from there come to a jump point. The answer of a jump from p to its next vertex q
 //! depends on how jumps find q, and if they pass it, on the answer from q. So where the answer from p
 //! changes, either q is found otherwise, or the answer from q changes. All such p are found from the vertices
@@ -286,7 +286,7 @@ impl<'r, P: Placement> Repair<'r, P> {
     fn here(&self, grid: &Grid, at: Vertex) -> Here<'r> {
         let rows = grid.rows();
         let pattern = P::pattern(rows.words(), rows.index(at.x, at.y), rows.bits_per_row());
-        // What is a gap follows from the pattern, whether there is any elsewhere or not.
+        // The pattern tells a gap, whether there is any elsewhere or not.
         let is_gap = P::closes_gaps(self.graph.rule()) && is_gap(rows, at);
         Here { table: self.table, pattern, is_gap, moves: self.graph.steps().len() }
     }
@@ -302,7 +302,7 @@ struct Here<'r> {
     moves: usize,
 }
 
-/// What the pattern of cells around a vertex says of diagonal jumps by one move.
+/// The part of the bits of a diagonal jump that the pattern of cells around a vertex tells.
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Arrival {
     /// Whether they can enter the vertex.

@@ -73,7 +73,7 @@ impl Zone {
 fn changed(change: &Change) -> Vec<Rectangle> {
     let mut all = Vec::new();
     for &Rectangle { x, y, width, height } in change.cells() {
-        // Those that end in the last row go on where the same cells of the next row change.
+        // Runs that end in the last row go on where the same cells of the next row change.
         let mut open: Vec<Rectangle> = Vec::new();
         for y in y..y + height {
             let word = |grid: &Grid| load(grid.rows().words(), grid.rows().index(x as i32, y as i32));

@@ -1,4 +1,4 @@
-//! What a change of the map does to a path.
+//! The effect of a change of the map on a path.
 
 use mediant_grid::{Change, FreeSpace, Placement, PlacementKind, Rectangle, Vertex};
 

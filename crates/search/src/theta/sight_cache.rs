@@ -7,8 +7,8 @@
 
 use mediant_grid::{FreeSpace, Placement, Vertex, VertexId, sight::PolygonCells};
 
-/// Which vertices see which blocks. It depends on the map alone, so it is kept from search to search, until the
-/// planner follows to another map.
+/// Which vertices see which blocks. It depends on the map alone, so it is kept from search to search, until
+/// the planner follows to another map.
 #[derive(Clone, Debug)]
 pub(super) struct SightCache {
     /// For each block of vertices the two answers that were asked for last.

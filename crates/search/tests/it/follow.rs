@@ -207,7 +207,7 @@ fn a_planner_that_followed_knows_nothing_of_the_map_before() {
     assert!(searched > 200 * seeds(12).end as usize, "only {searched} searches");
 }
 
-/// What belongs to another map is refused, and the planner goes on as before.
+/// Parts of another map are refused, and the planner goes on as before.
 #[test]
 fn parts_of_another_map_are_refused() {
     let [one, other] =

@@ -1,4 +1,4 @@
-//! What changes do to shortest paths, against the oracle.
+//! The effect of changes on shortest paths, against the oracle.
 
 use std::sync::Arc;
 

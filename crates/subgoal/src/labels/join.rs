@@ -90,7 +90,7 @@ impl Join {
     pub(super) fn fit<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) {
         let room = index.geometry.seen.most + 1;
         self.ends.iter_mut().for_each(|end| end.fit(room));
-        // What earlier queries left is more than any cost, whatever it was.
+        // All that earlier queries left is more than any cost.
         self.hubs.ways.resize(index.subgoals(), Way::NONE);
     }
 

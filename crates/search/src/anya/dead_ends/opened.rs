@@ -47,8 +47,8 @@ impl Opened {
         Self { dead_ends, rows, open: Vec::new(), of_rows, of_columns }
     }
 
-    /// Goes on with other dead ends: by work that follows their difference if these have been repaired to those
-    /// by a few repairs, else by a copy. It keeps the memory if their map has the same size.
+    /// Goes on with other dead ends: by work that follows their difference if these have been repaired to
+    /// those by a few repairs, else by a copy. It keeps the memory if their map has the same size.
     pub(in super::super) fn follow(&mut self, dead_ends: Arc<DeadEnds>) {
         // The next query closes what is open.
         if Arc::ptr_eq(&self.dead_ends, &dead_ends) {

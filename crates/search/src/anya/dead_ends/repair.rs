@@ -16,7 +16,7 @@ const MANY: usize = 32;
 /// The repairs that are kept for planners which follow.
 const KEPT: usize = 8;
 
-/// What a repair has changed, for planners that follow.
+/// The changes of a repair, for planners that follow.
 #[derive(Debug, Default)]
 pub(super) struct Repair {
     /// The cells of rows without dead ends that are blocked now, or are no more.

@@ -7,8 +7,8 @@
 //! left of it, the part is *cut off*. When a run that is free again leads from such a part to another, it is
 //! its new bridge: doors may close and open.
 //!
-//! No bridge is found otherwise. Neither is one that a new wall makes, nor one on a way around that is blocked
-//! again.
+//! No bridge is found otherwise. Neither is one that a new wall makes, nor one on a way around that is
+//! blocked again.
 
 use mediant_grid::{BitMatrix, BitRow, Interrupt, Interrupted, VersionEdit};
 

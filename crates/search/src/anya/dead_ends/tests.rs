@@ -159,7 +159,8 @@ fn check_order(dead_ends: &DeadEnds, space: &FreeSpace<Corners>, case: &str) {
     }
 }
 
-/// Cells are blocked and freed by any edit, doors closed and opened, and all that the proofs need is looked at.
+/// Cells are blocked and freed by any edit, doors closed and opened, and all that the proofs need is looked
+/// at.
 #[test]
 fn repairs_keep_what_the_proofs_need() {
     let count = |dead_ends: &DeadEnds| {

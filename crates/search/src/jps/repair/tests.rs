@@ -101,8 +101,8 @@ fn planes<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, reach: u32) 
     })
 }
 
-/// Repaired planes are new ones, bit by bit, but for dead ends that they do not know; whatever the reach. Each
-/// repair is one of a repair, and works on the memory of versions that were dropped.
+/// Repaired planes are new ones, bit by bit, but for dead ends that they do not know; whatever the reach.
+/// Each repair is one of a repair, and works on the memory of versions that were dropped.
 #[derive(Default)]
 struct Planes {
     repaired: u64,
@@ -110,7 +110,7 @@ struct Planes {
     /// The dead ends of repaired planes, and of new ones.
     dead_ends: u64,
     of_new_ones: u64,
-    /// Those that ceased to be, and that came to be.
+    /// The marks that ceased to be, and that came to be.
     gone: u64,
     come: u64,
 }
