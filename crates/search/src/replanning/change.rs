@@ -2,13 +2,14 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Change, GridGraph, Identity, Placement, Rectangle, Vertex, VertexId};
+use mediant_grid::{Change, GridGraph, Identity, Placement, Rectangle, Vector, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use super::{
     costs::MoveCosts,
-    reach::reach,
-    search::{Replanner, State},
+    nodes::Node,
+    reach::Reach,
+    search::{Replanner, State, opposite},
 };
 use crate::gap_nodes::{ends_at, node_at, upper};
 
@@ -52,18 +53,23 @@ where
         if changed.len() > most {
             return self.set_graph(graph, costs);
         }
-        let reach = self.reach.get_or_insert_with(|| reach(&graph));
-        let mut near: Vec<VertexId> = Vec::new();
-        for cell in changed {
-            let around = reach.iter().filter_map(|&offset| graph.id(cell + offset));
-            near.extend(around.filter(|&id| is_known(&self.state, &graph, id)));
-        }
-        near.sort_unstable();
-        near.dedup();
-        let moves =
-            [(&*self.graph, &self.costs), (&*graph, &costs)].map(|(graph, costs)| Moves { graph, costs });
-        for id in near {
-            self.state.change_moves(&moves, id);
+        let reach = self.reach.get_or_insert_with(|| Reach::new(&*graph));
+        let moves = [(&*self.graph, &self.costs), (&*graph, &costs)];
+        let moves = moves.map(|(graph, costs)| Moves { graph, costs });
+        if C::ARE_FIXED {
+            self.state.change_gaps(&moves, &changed);
+            let (freed, blocked): (Vec<_>, Vec<_>) =
+                changed.iter().partition(|at| graph.grid().is_free(at.x, at.y));
+            for &cell in &freed {
+                self.state.lower_across(&moves[1], cell, reach);
+            }
+            for id in around(&blocked, reach, &graph) {
+                self.state.mark_if_illegal(&graph, id);
+            }
+        } else {
+            for id in around(&changed, reach, &graph) {
+                self.state.change_moves(&moves, id);
+            }
         }
         self.state.stale.sort_unstable();
         self.state.stale.dedup();
@@ -87,9 +93,15 @@ fn changed_cells<P: Placement, C: MoveCosts<P>>(
     all.filter(|at| !C::ARE_FIXED || before.is_blocked(at.x, at.y) != after.is_blocked(at.x, at.y))
 }
 
-/// Whether a node at a vertex is known. (An upper node counts in either grid graph: it may be one of the past.)
-fn is_known<P: Placement>(state: &State, graph: &GridGraph<P>, id: VertexId) -> bool {
-    state.nodes.is_known(id) || P::closes_gaps(graph.rule()) && state.nodes.is_known(upper(graph, id))
+/// The vertices of which a move may sweep one of these cells, in order.
+fn around<P: Placement>(cells: &[Vertex], reach: &Reach, graph: &GridGraph<P>) -> Vec<VertexId> {
+    let around = |&cell| reach.vertices.iter().filter_map(move |&offset| graph.id(cell + offset));
+    let mut vertices: Vec<VertexId> = cells.iter().flat_map(around).collect();
+    if cells.len() > 1 {
+        vertices.sort_unstable();
+        vertices.dedup();
+    }
+    vertices
 }
 
 /// The moves on the map before a change, or after it.
@@ -102,6 +114,8 @@ struct Moves<'m, P: Placement, C> {
 #[derive(Clone, Copy, PartialEq, Eq)]
 struct Joint {
     ends: [(VertexId, Vertex); 2],
+    /// The move from the first to the second one, and the move back.
+    moves: [usize; 2],
     cost: Cost,
 }
 
@@ -111,51 +125,103 @@ impl<P: Placement, C: MoveCosts<P>> Moves<'_, P, C> {
         let (graph, step) = (self.graph, self.graph.step(index));
         let (to, to_at) = (step.target(id), at + step.vector());
         let ends = [(node_at(graph, (id, at), to_at), at), (node_at(graph, (to, to_at), at), to_at)];
-        Some(Joint { ends, cost: self.costs.cost(graph, at, index)? })
+        Some(Joint { ends, moves: [index, opposite(graph, index)], cost: self.costs.cost(graph, at, index)? })
     }
 }
 
 impl State {
-    /// Changes the rhs of a vertex and its neighbors as far as its moves differ; or marks them, where a way is no
-    /// more by which they had it.
+    /// Where a gap comes or goes beside changed cells, the moves of the vertex join other nodes.
+    fn change_gaps<P: Placement, C: MoveCosts<P>>(&mut self, moves: &[Moves<'_, P, C>; 2], cells: &[Vertex]) {
+        let [before, after] = [moves[0].graph, moves[1].graph];
+        if !before.has_closed_gaps() && !after.has_closed_gaps() {
+            return;
+        }
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(Vector::from);
+        for at in cells.iter().flat_map(|&cell| corners.map(|corner| cell + corner)) {
+            let quadrants = |graph: &GridGraph<P>| graph.is_closed_gap(at).then(|| ends_at(graph, at));
+            if quadrants(before) != quadrants(after)
+                && let Some(id) = after.id(at)
+            {
+                self.change_moves(moves, id);
+            }
+        }
+    }
+
+    /// Changes the rhs of a vertex and its neighbors as far as its moves differ; or marks them, where a way
+    /// is no more by which they had it.
     ///
-    /// No g changes here. So the order of the moves does not matter: a node that is not marked has an rhs by a
-    /// move that is legal after the change.
+    /// No g changes here. So the order of the moves does not matter: a node that is not marked has an rhs by
+    /// a move that is legal after the change.
     fn change_moves<P: Placement, C: MoveCosts<P>>(
         &mut self,
         [before, after]: &[Moves<'_, P, C>; 2],
         id: VertexId,
     ) {
+        // A move between two vertices without a g changes nothing, and where one has it all neighbors are known.
+        let may_be_known = P::closes_gaps(after.graph.rule()) || self.nodes.is_known(id);
         let at = after.graph.vertex(id);
-        let [legal_before, legal_after] = [before.graph, after.graph].map(|graph| graph.legal_moves(at));
-        // Where a gap comes or goes, moves join other nodes.
-        let quadrants = |graph: &GridGraph<P>| graph.is_closed_gap(at).then(|| ends_at(graph, at));
-        let only_illegal = C::ARE_FIXED && quadrants(before.graph) == quadrants(after.graph);
-        for index in legal_before.iter() {
-            let stays = legal_after.contains(index);
-            if !(stays && only_illegal) {
-                let new = if stays { after.joint(id, at, index) } else { None };
-                self.replace_joint(after.graph, before.joint(id, at, index), new);
+        let legal = [before.graph, after.graph].map(|graph| graph.legal_moves(at));
+        for index in (0..before.graph.steps().len()).filter(|_| may_be_known) {
+            let joint = |side: usize, moves: &Moves<'_, P, C>| {
+                if legal[side].contains(index) { moves.joint(id, at, index) } else { None }
+            };
+            let (old, new) = (joint(0, before), joint(1, after));
+            if old == new {
+                continue;
             }
-        }
-        for index in legal_after.iter().filter(|&index| !legal_before.contains(index)) {
-            self.replace_joint(after.graph, None, after.joint(id, at, index));
+            if let Some(Joint { ends: [(one, _), (other, _)], moves: [to, back], .. }) = old {
+                self.mark_if_by(other, to);
+                self.mark_if_by(one, back);
+            }
+            if let Some(new) = new {
+                self.lower_by(after.graph, new);
+            }
         }
     }
 
-    fn replace_joint<P: Placement>(&mut self, graph: &GridGraph<P>, old: Option<Joint>, new: Option<Joint>) {
-        if old == new {
-            return;
-        }
-        let both = |Joint { ends: [one, other], cost }| [(one, other, cost), (other, one, cost)];
-        for ((from, _), (to, _), cost) in old.into_iter().flat_map(both) {
-            if let Some(g) = self.nodes.get(to).settled() {
-                self.mark_if_by(from, g + cost);
+    /// Lowers the rhs of both ends of a move that is legal after the change, as far as the other end's g says
+    /// so.
+    fn lower_by<P: Placement>(&mut self, graph: &GridGraph<P>, joint: Joint) {
+        let Joint { ends: [one, other], moves: [to, back], cost } = joint;
+        for (from, end, by) in [(one.0, other, to), (other.0, one, back)] {
+            if let Some(g) = self.nodes.get(from).settled() {
+                self.lower(graph, end, (g + cost, by), &mut ());
             }
         }
-        for (from, (to, _), cost) in new.into_iter().flat_map(both) {
-            if let Some(g) = self.nodes.get(to).settled() {
-                self.lower(graph, from, g + cost, &mut ());
+    }
+
+    /// Lowers rhs by the moves that sweep a freed cell. Few of them would, and only of these is it asked whether
+    /// they are legal; if they were before, nothing changes.
+    fn lower_across<P: Placement, C: MoveCosts<P>>(
+        &mut self,
+        moves: &Moves<'_, P, C>,
+        cell: Vertex,
+        reach: &Reach,
+    ) {
+        let graph = moves.graph;
+        for sweep in &reach.moves {
+            let (at, index) = (cell + sweep.offset(), sweep.index());
+            let to = at + graph.step(index).vector();
+            let Some(id) = graph.id(at).filter(|_| graph.id(to).is_some()) else { continue };
+            let Some(joint) = moves.joint(id, at, index) else { continue };
+            let [one, other] = joint.ends.map(|(id, _)| self.nodes.get(id));
+            let lowers = |from: Node, to: Node| from.settled().is_some_and(|g| g + joint.cost < to.rhs);
+            if (lowers(one, other) || lowers(other, one)) && graph.sees(at, to) {
+                self.lower_by(graph, joint);
+            }
+        }
+    }
+
+    /// Marks the nodes of a vertex whose rhs comes by a move that is legal no more: where cells were blocked,
+    /// no other move matters.
+    fn mark_if_illegal<P: Placement>(&mut self, graph: &GridGraph<P>, id: VertexId) {
+        let at = graph.vertex(id);
+        let upper = P::closes_gaps(graph.rule()).then(|| upper(graph, id));
+        for node in [Some(id), upper].into_iter().flatten() {
+            let Node { rhs, by, .. } = self.nodes.get(node);
+            let has_move = rhs != Cost::MAX && self.root != Some(node);
+            if has_move && !graph.sees(at, at + -graph.step(by).vector()) {
+                self.stale.push(node);
             }
         }
     }

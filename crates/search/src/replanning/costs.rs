@@ -10,8 +10,8 @@ use mediant_moves::Cost;
 /// A move costs the same in both directions, and at least its length ([`Step::cost`](mediant_grid::Step)): so
 /// h_k stays a lower bound. Its cost depends on nothing but the move and the cells that it sweeps.
 pub trait MoveCosts<P: Placement>: Debug {
-    /// Whether a move costs the same wherever it is legal, so that a change of the map changes no cost of a move
-    /// that stays legal.
+    /// Whether a move costs the same wherever it is legal, so that a change of the map changes no cost of a
+    /// move that stays legal.
     const ARE_FIXED: bool = false;
 
     /// The cost of the legal move `index` at `from`; `None` if it may not be taken.

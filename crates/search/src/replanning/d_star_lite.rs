@@ -81,8 +81,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, C: MoveCosts<P>> DStarLite<G
         self.path_observed(&mut ())
     }
 
-    /// The same, watched by an observer, which cannot pause the search. A vertex may be expanded twice: once as
-    /// its distance ends to hold, once with the new one.
+    /// The same, watched by an observer, which cannot pause the search. A vertex may be expanded twice: once
+    /// as its distance ends to hold, once with the new one.
     ///
     /// # Errors
     /// As for [`path`](Self::path).
@@ -93,15 +93,16 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, C: MoveCosts<P>> DStarLite<G
         Ok(self.cost.map_or(Answer::Unreachable, |_| Answer::Found(Path::new(self.search.trace()))))
     }
 
-    /// The exact cost of the path that was found last; `None` where there was none, or the robot or the map has
-    /// changed since.
+    /// The exact cost of the path that was found last; `None` where there was none, or the robot or the map
+    /// has changed since.
     #[must_use]
     pub const fn cost(&self) -> Option<Cost> {
         self.cost
     }
 
-    /// Continues on the map after a change, on its grid graph. If that is not the one after this change of the
-    /// map of this planner, with the same rules and k, all is searched anew; so it is after large changes.
+    /// Continues on the map after a change, on its grid graph. If that is not the one after this change of
+    /// the map of this planner, with the same rules and k, all is searched anew; so it is after large
+    /// changes.
     pub fn change(&mut self, graph: G, change: &Change)
     where
         C: Clone,
@@ -110,8 +111,8 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, C: MoveCosts<P>> DStarLite<G
         self.search.change(graph, change);
     }
 
-    /// Continues with another grid graph and other costs. Outside of `cells` map and costs must be the same as
-    /// before: a move costs the same if it sweeps none of them.
+    /// Continues with another grid graph and other costs. Outside of `cells` map and costs must be the same
+    /// as before: a move costs the same if it sweeps none of them.
     pub fn change_costs(&mut self, graph: G, costs: C, cells: &[Rectangle]) {
         self.cost = None;
         self.search.change_costs(graph, costs, cells);

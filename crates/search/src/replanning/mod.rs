@@ -1,47 +1,48 @@
-//! Replanning over N(k): searches that keep what they know while the map changes, for every k, both placements
-//! and all rules of motion.
+//! Replanning over N(k): searches that keep what they know while the map changes, for every k, both
+//! placements and all rules of motion.
 //!
 //! - [`LpaStar`] is LPA* (Koenig, Likhachev & Furcy 2004): a start and a goal that stay where they are.
-//! - [`DStarLite`] is D* Lite (Koenig & Likhachev 2002, the optimized version with k_m): the start moves, as a
-//!   robot does that uncovers its map on the way.
+//! - [`DStarLite`] is D* Lite (Koenig & Likhachev 2002, the optimized version with k_m): the start moves, as
+//!   a robot does that uncovers its map on the way.
 //!
 //! Both are the same search (`search.rs`) from a *root* to a *target*. LPA* searches from the start to the
-//! goal; D* Lite searches from the goal to the start, so that its distances hold wherever the robot goes. Moves
-//! are legal in reverse, at the same cost: predecessors and successors are the same.
+//! goal; D* Lite searches from the goal to the start, so that its distances hold wherever the robot goes.
+//! Moves are legal in reverse, at the same cost: predecessors and successors are the same.
 //!
 //! A vertex has two values: g, its distance from the root as last settled, and rhs, what its neighbors' g say
-//! that it is. Where the two differ it is in the open list. A change of the map alters the rhs of the vertices
-//! beside the changed moves, and the search settles what follows from that, as far as the target needs it.
+//! that it is. Where the two differ it is in the open list. A change of the map alters the rhs of the
+//! vertices beside the changed moves, and the search settles what follows from that, as far as the target
+//! needs it.
 //!
 //! **The key decision: of a vertex nothing is stored but g and rhs, and the changed moves are found, not
 //! recorded.** 2^k moves a vertex are too many to store, and a cell is swept by many: at k = 7 by some two
 //! thousand from 180 vertices, at k = 12 by half a million. So a change asks both grid graphs, the one before
 //! and the one after. The footprints of all moves, turned round, name the vertices of which a move may sweep
-//! a changed cell (`reach.rs`). Of these only the known ones count, since a move between two vertices whose g is
-//! infinite changes no rhs; and of a known one the sets of legal moves before and after say which moves differ.
-//! What differs is a fact of two maps, and the work is that of expanding the known vertices around the cells
-//! twice.
+//! a changed cell (`reach.rs`). Of these only the known ones count, since a move between two vertices whose g
+//! is infinite changes no rhs; and of a known one the sets of legal moves before and after say which moves
+//! differ. What differs is a fact of two maps, and the work is that of expanding the known vertices around
+//! the cells twice.
 //!
-//! **Exact costs.** g, rhs and keys are integers ([`Cost`](mediant_moves::Cost)), so 'the two differ' needs no
-//! tolerance. h_k is the cost of a path on an empty grid in the same integers. So it is a lower bound, and
+//! **Exact costs.** g, rhs and keys are integers ([`Cost`](mediant_moves::Cost)), so 'the two differ' needs
+//! no tolerance. h_k is the cost of a path on an empty grid in the same integers. So it is a lower bound, and
 //! h(s, s″) ≤ h(s, s′) + h(s′, s″) holds to the last bit: this is what D* Lite needs for the keys of an open
 //! list in which the target has moved since.
 //!
-//! **Keys of 16 bytes.** A key is min(g, rhs) + h + k_m, then min(g, rhs), and here the second part counts whole
-//! cells. That suffices. The second part has one task: of two vertices on a path whose first parts are equal, the
-//! one nearer to the root comes first. No move is shorter than 1 cell, so their second parts differ by 1 cell or
-//! more, and so do the whole cells. Vertices that still tie are taken by their number: the order is total, and
-//! the same on every platform.
+//! **Keys of 16 bytes.** A key is min(g, rhs) + h + k_m, then min(g, rhs), and here the second part counts
+//! whole cells. That suffices. The second part has one task: of two vertices on a path whose first parts are
+//! equal, the one nearer to the root comes first. No move is shorter than 1 cell, so their second parts
+//! differ by 1 cell or more, and so do the whole cells. Vertices that still tie are taken by their number:
+//! the order is total, and the same on every platform.
 //!
-//! **Closed gaps.** Whether a path may go on from a gap depends on how it came there, while g and rhs are values
-//! of a place alone. So a gap is two nodes, one for each free quadrant (module `gap_nodes`), and a move joins
-//! the nodes of the quadrants in which it lies. Paths in this graph are exactly those that closed gaps allow. It
-//! does not depend on the goal, and no k is special. A path starts and ends at a gap in the quadrant of the
-//! vertex's own cell, which is that of the lower node if it is free. Where a gap comes or goes, all moves of the
-//! vertex join other nodes, and count as changed.
+//! **Closed gaps.** Whether a path may go on from a gap depends on how it came there, while g and rhs are
+//! values of a place alone. So a gap is two nodes, one for each free quadrant (module `gap_nodes`), and a
+//! move joins the nodes of the quadrants in which it lies. Paths in this graph are exactly those that closed
+//! gaps allow. It does not depend on the goal, and no k is special. A path starts and ends at a gap in the
+//! quadrant of the vertex's own cell, which is that of the lower node if it is free. Where a gap comes or
+//! goes, all moves of the vertex join other nodes, and count as changed.
 //!
-//! **Ties.** Of several shortest paths the one is taken that, followed from the target, goes straight on where
-//! it can and else takes the move of the lowest index.
+//! **Ties.** Of several shortest paths the one is taken that, followed from the target, goes straight on
+//! where it can and else takes the move of the lowest index.
 //!
 //! When replanning is faster than a new search, and when not: `docs/measurements/replanning.md`.
 
@@ -52,6 +53,8 @@ mod lpa_star;
 mod nodes;
 mod reach;
 mod search;
+#[cfg(test)]
+mod tests;
 
 pub use self::{
     costs::{Lengths, MoveCosts},

@@ -1,6 +1,6 @@
 //! The nodes of a search that replans, which are not cleared between searches.
 
-use mediant_grid::VertexId;
+use mediant_grid::{Centers, GridGraph, VertexId};
 use mediant_moves::Cost;
 
 /// What a search knows of a vertex, or of one of the two nodes of a closed gap.
@@ -12,13 +12,19 @@ pub(super) struct Node {
     pub(super) rhs: Cost,
     /// Its slot in the open list, or [`CLOSED`](Self::CLOSED).
     pub(super) slot: u32,
+    /// The move from that neighbor, by its index.
+    pub(super) by: usize,
 }
+
+const _: () = assert!(Node::MOVE_BITS >= GridGraph::<Centers>::MAX_K);
 
 impl Node {
     /// The slot of a node that is not in the open list.
     pub(super) const CLOSED: u32 = u32::MAX;
     /// A node that the search has not reached.
-    pub(super) const UNKNOWN: Self = Self { g: Cost::MAX, rhs: Cost::MAX, slot: Self::CLOSED };
+    pub(super) const UNKNOWN: Self = Self { g: Cost::MAX, rhs: Cost::MAX, slot: Self::CLOSED, by: 0 };
+    /// The bits of a move's index: enough for the 4,096 moves of k = 12.
+    const MOVE_BITS: u32 = 12;
 
     /// Its distance, if it is settled.
     #[inline]
@@ -31,7 +37,7 @@ impl Node {
 /// search, and an array of zeros takes memory only where it is written.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
-    /// Of each node g, rhs, and its generation above its slot.
+    /// Of each node g, rhs, and its generation above its move above its slot.
     words: Vec<[u64; 3]>,
     generation: u32,
     known: usize,
@@ -55,7 +61,7 @@ impl Nodes {
 
     /// Forgets all nodes.
     pub(super) fn forget(&mut self) {
-        if self.generation == u32::MAX {
+        if self.generation == LAST_GENERATION {
             *self = Self { generation: 0, ..Self::new(self.len()) };
         }
         self.generation += 1;
@@ -65,14 +71,15 @@ impl Nodes {
     /// Whether the search has reached a node.
     #[inline]
     pub(super) fn is_known(&self, id: VertexId) -> bool {
-        self.words.get(id.index()).is_some_and(|words| (words[2] >> 32) as u32 == self.generation)
+        self.words.get(id.index()).is_some_and(|words| generation(words[2]) == self.generation)
     }
 
     #[inline]
     pub(super) fn get(&self, id: VertexId) -> Node {
         match self.words.get(id.index()) {
-            Some(&[g, rhs, place]) if (place >> 32) as u32 == self.generation => {
-                Node { g: Cost::from_bits(g), rhs: Cost::from_bits(rhs), slot: place as u32 }
+            Some(&[g, rhs, rest]) if generation(rest) == self.generation => {
+                let by = (rest >> 32) as usize & ((1 << Node::MOVE_BITS) - 1);
+                Node { g: Cost::from_bits(g), rhs: Cost::from_bits(rhs), slot: rest as u32, by }
             }
             _ => Node::UNKNOWN,
         }
@@ -82,8 +89,9 @@ impl Nodes {
     #[inline]
     pub(super) fn set(&mut self, id: VertexId, node: Node) -> bool {
         let Some(words) = self.words.get_mut(id.index()) else { return false };
-        let is_new = (words[2] >> 32) as u32 != self.generation;
-        *words = [node.g.to_bits(), node.rhs.to_bits(), place(self.generation, node.slot)];
+        let is_new = generation(words[2]) != self.generation;
+        let mark = u64::from(self.generation) << Node::MOVE_BITS | node.by as u64;
+        *words = [node.g.to_bits(), node.rhs.to_bits(), mark << 32 | u64::from(node.slot)];
         self.known += usize::from(is_new);
         is_new
     }
@@ -92,14 +100,18 @@ impl Nodes {
     #[inline]
     pub(super) fn set_slot(&mut self, id: VertexId, slot: u32) {
         if let Some(words) = self.words.get_mut(id.index()) {
-            words[2] = place(self.generation, slot);
+            words[2] = words[2] >> 32 << 32 | u64::from(slot);
         }
     }
 }
 
+/// The last generation. After it, once in a million searches, the nodes are cleared and the count begins anew.
+const LAST_GENERATION: u32 = u32::MAX >> Node::MOVE_BITS;
+
+/// The generation of a node by its last word.
 #[inline]
-const fn place(generation: u32, slot: u32) -> u64 {
-    (generation as u64) << 32 | slot as u64
+const fn generation(rest: u64) -> u32 {
+    (rest >> (32 + Node::MOVE_BITS)) as u32
 }
 
 #[cfg(test)]
@@ -109,11 +121,13 @@ mod tests {
     #[test]
     fn nodes_are_forgotten_also_when_the_generations_run_out() {
         let mut nodes = Nodes::new(2);
-        let node = Node { g: Cost::from_bits(3), rhs: Cost::ZERO, slot: 7 };
+        let node = Node { g: Cost::from_bits(3), rhs: Cost::ZERO, slot: 7, by: 4_095 };
         assert!(!nodes.is_known(VertexId(0)) && nodes.get(VertexId(0)) == Node::UNKNOWN);
         assert!(nodes.set(VertexId(1), node) && !nodes.set(VertexId(1), node));
         assert_eq!((nodes.get(VertexId(1)), nodes.known()), (node, 1));
-        nodes.generation = u32::MAX - 1;
+        nodes.set_slot(VertexId(1), 9);
+        assert_eq!(nodes.get(VertexId(1)), Node { slot: 9, ..node });
+        nodes.generation = LAST_GENERATION - 1;
         nodes.forget();
         assert!(nodes.set(VertexId(0), node));
         nodes.forget();

@@ -8,6 +8,7 @@ use mediant_moves::Cost;
 use super::{
     costs::MoveCosts,
     nodes::{Node, Nodes},
+    reach::Reach,
 };
 use crate::{
     gap_nodes::{node_at, vertex_of},
@@ -22,26 +23,27 @@ pub(super) struct Replanner<G, C> {
     pub(super) costs: C,
     pub(super) state: State,
     /// From where moves sweep a cell: found at the first change.
-    pub(super) reach: Option<Box<[mediant_grid::Vector]>>,
+    pub(super) reach: Option<Reach>,
 }
 
 /// What the search knows.
 #[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) nodes: Nodes,
-    open: OpenList,
+    pub(super) open: OpenList,
     /// The node at distance 0; `None` before the first search.
     pub(super) root: Option<VertexId>,
     target: VertexId,
     target_at: Vertex,
-    /// How far the target has moved, by h_k: what keys have more than those of a new search. (k_m of the paper.)
-    moved: Cost,
+    /// How far the target has moved, by h_k: what keys have more than those of a new search. (k_m of the
+    /// paper.)
+    pub(super) moved: Cost,
     /// Nodes whose rhs is to be found anew.
     pub(super) stale: Vec<VertexId>,
 }
 
 /// As far as a target may move before all is searched anew: 2³⁰ cells, so that no key overflows.
-const MOST_MOVED: Cost = Cost::from_bits(1 << (Cost::FRACTION_BITS + 30));
+pub(super) const MOST_MOVED: Cost = Cost::from_bits(1 << (Cost::FRACTION_BITS + 30));
 
 impl<P, G, C> Replanner<G, C>
 where
@@ -124,7 +126,7 @@ where
 
     /// The memory used beyond the grid graph, in bytes, where all of it was touched.
     pub(super) fn memory_bytes(&self) -> usize {
-        let reach = self.reach.as_ref().map_or(0, |reach| size_of_val(&**reach));
+        let reach = self.reach.as_ref().map_or(0, Reach::memory_bytes);
         self.state.nodes.len() * size_of::<[u64; 3]>() + self.state.open.len() * size_of::<Entry>() + reach
     }
 }
@@ -174,6 +176,15 @@ pub(super) fn for_each_edge<P: Placement, C: MoveCosts<P>>(
     });
 }
 
+/// The index of the move back. Moves are ordered by angle.
+#[inline]
+pub(super) fn opposite<P: Placement>(graph: &GridGraph<P>, index: usize) -> usize {
+    let count = graph.steps().len();
+    let back = (index + count / 2) & (count - 1);
+    debug_assert_eq!(graph.step(back).vector(), -graph.step(index).vector(), "the move back");
+    back
+}
+
 impl State {
     /// Forgets all, and makes the root the only node that is known.
     fn begin<P: Placement>(
@@ -187,7 +198,7 @@ impl State {
         self.open.clear();
         (self.root, self.target, self.target_at) = (Some(root), target, graph.vertex(target));
         self.moved = Cost::ZERO;
-        self.lower(graph, (root, graph.vertex(root)), Cost::ZERO, observer);
+        self.lower(graph, (root, graph.vertex(root)), (Cost::ZERO, 0), observer);
     }
 
     /// The entry of a node in the open list; of one with no distance, one that no other is behind.
@@ -233,26 +244,28 @@ impl State {
             if node.g > node.rhs {
                 self.put(graph, (id, at), Node { g, ..node }, observer);
                 for_each_edge(graph, costs, id, |edge| {
-                    self.lower(graph, (edge.to, edge.at), g + edge.cost, observer);
+                    self.lower(graph, (edge.to, edge.at), (g + edge.cost, edge.index), observer);
                 });
             } else {
-                // It is farther than it was: so are those whose distance came by it.
+                // It is farther than it was: so may those be whose rhs came by it.
                 self.put(graph, (id, at), Node { g: Cost::MAX, ..node }, observer);
-                for_each_edge(graph, costs, id, |edge| self.mark_if_by(edge.to, g + edge.cost));
+                for_each_edge(graph, costs, id, |edge| self.mark_if_by(edge.to, edge.index));
                 self.renew(graph, costs, observer);
             }
         }
     }
 
-    /// Marks a node whose rhs may come by a way of this cost that is no more.
+    /// Marks a node if its rhs comes by this move.
     #[inline]
-    pub(super) fn mark_if_by(&mut self, id: VertexId, cost: Cost) {
-        if self.nodes.get(id).rhs == cost && self.root != Some(id) {
+    pub(super) fn mark_if_by(&mut self, id: VertexId, index: usize) {
+        let node = self.nodes.get(id);
+        if node.by == index && node.rhs != Cost::MAX && self.root != Some(id) {
             self.stale.push(id);
         }
     }
 
-    /// Finds the rhs of all marked nodes anew.
+    /// Finds the rhs of all marked nodes anew. None is lower than it was: where moves became legal or cheaper,
+    /// it has been [lowered](Self::lower) before.
     pub(super) fn renew<P: Placement, C: MoveCosts<P>>(
         &mut self,
         graph: &GridGraph<P>,
@@ -260,27 +273,30 @@ impl State {
         observer: &mut impl Observer,
     ) {
         while let Some(id) = self.stale.pop() {
-            let mut rhs = Cost::MAX;
+            let node = self.nodes.get(id);
+            let (mut rhs, mut by) = (Cost::MAX, 0);
             for_each_edge(graph, costs, id, |edge| {
-                if let Some(g) = self.nodes.get(edge.to).settled() {
-                    rhs = rhs.min(g + edge.cost);
+                if rhs == node.rhs {
+                    return;
+                }
+                let found = self.nodes.get(edge.to).settled().map(|g| g + edge.cost);
+                if let Some(found) = found.filter(|&found| found < rhs) {
+                    (rhs, by) = (found, opposite(graph, edge.index));
                 }
             });
-            let node = self.nodes.get(id);
-            if node.rhs != rhs {
-                let (_, at) = vertex_of(graph, id);
-                self.put(graph, (id, at), Node { rhs, ..node }, observer);
-            }
+            let (_, at) = vertex_of(graph, id);
+            let node = Node { rhs, by, ..node };
+            self.put(graph, (id, at), node, observer);
         }
     }
 
-    /// Lowers the rhs of a node, if it is higher.
+    /// Lowers the rhs of a node, if it is higher, to a cost that comes by a move to it.
     #[inline]
     pub(super) fn lower<P: Placement>(
         &mut self,
         graph: &GridGraph<P>,
         (id, at): (VertexId, Vertex),
-        rhs: Cost,
+        (rhs, by): (Cost, usize),
         observer: &mut impl Observer,
     ) {
         let node = self.nodes.get(id);
@@ -294,7 +310,7 @@ impl State {
         } else {
             observer.generated(event)
         }
-        self.put(graph, (id, at), Node { rhs, ..node }, observer);
+        self.put(graph, (id, at), Node { rhs, by, ..node }, observer);
     }
 
     /// Stores a node, and puts it into the open list where its two values differ, else takes it out.
@@ -320,30 +336,5 @@ impl State {
             (false, true) => open.push(entry, moved),
             (false, false) => open.replace(slot, entry, moved),
         });
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use mediant_grid::{Centers, CornerRule, Grid};
-    use mediant_moves::FiniteK;
-
-    use super::{super::costs::Lengths, *};
-
-    #[test]
-    fn a_target_may_move_for_ever() {
-        let grid = Arc::new(Grid::from_fn(9, 1, |_, _| false).expect("a valid size"));
-        let graph = GridGraph::<Centers>::new(grid, FiniteK::N4, CornerRule::Never).expect("a valid k");
-        let mut search = Replanner::new(&graph, Lengths);
-        let cells = |cells: u32| Some(Cost::of_move((1, 0).into()) * cells);
-        assert_eq!(search.search(VertexId(0), VertexId(3), &mut ()), cells(3));
-        // Below the limit keys do not overflow, and beyond it all is searched anew.
-        search.state.moved = Cost::from_bits(MOST_MOVED.to_bits() - 1);
-        for (target, begins) in [(8, false), (2, true), (5, false)] {
-            assert_eq!(search.search(VertexId(0), VertexId(target), &mut ()), cells(target));
-            assert_eq!(search.state.moved < cells(9).unwrap_or_default(), begins || target == 5);
-        }
     }
 }
