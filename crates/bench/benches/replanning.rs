@@ -1,10 +1,10 @@
 //! A robot uncovers a map: D* Lite beside new searches. `cargo bench -p mediant-bench --bench replanning`
 //! writes the tables of `docs/measurements/replanning.md`.
 //!
-//! The robot begins with a map on which all cells are free, or with an outdated one. After each move it sees the cells within its
-//! radius, also behind walls, and follows its path until that is blocked. All engines answer the same
-//! queries; a new search makes what it needs of the map anew. Nothing counts that is not checked: the exact
-//! costs are compared.
+//! The robot begins with a map on which all cells are free, or with an outdated one. After each move it sees
+//! the cells within its radius, also behind walls, and follows its path until that is blocked. All engines
+//! answer the same queries; a new search makes what it needs of the map anew. Nothing counts that is not
+//! checked: the exact costs are compared.
 #![allow(clippy::print_stdout, reason = "a program talks to its user")]
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a measurement may fail")]
 
@@ -17,7 +17,8 @@ use mediant_grid::{Centers, Change, CornerRule, FreeSpace, Grid, GridGraph};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, noise};
 use mediant_search::{
-    AStar, Answer, BlockJps, Canonical, CanonicalRule, Counters, DStarLite, Ends, Hk, Path, Planner, Pruning,
+    AStar, Answer, BlockJps, Canonical, CanonicalRule, Counters, DStarLite, Ends, Hk, LpaStar, Path, Planner,
+    Pruning,
 };
 
 const SIDE: u32 = 512;
@@ -95,8 +96,8 @@ fn exact(path: &Path) -> Cost {
     })
 }
 
-/// A way of the robot: how often its map changed, by how many cells, how often that blocked its path, how often
-/// it needed a new one; and the engines.
+/// A way of the robot: how often its map changed, by how many cells, how often that blocked its path, how
+/// often it needed a new one; and the engines.
 #[derive(Debug, Default)]
 struct Run {
     changes: u32,
@@ -223,6 +224,43 @@ fn map(make: impl Fn(&mut Rng) -> Grid) -> (Grid, Ends) {
     (maps.find(has_way).unwrap(), ends)
 }
 
+/// LPA* after changes of so many random cells anywhere, beside A*. The first table: how much may change.
+fn scattered(name: &str, map: &Grid, ends: Ends) {
+    for (k, count) in (3..=7).step_by(2).flat_map(|k| [1, 10, 100, 1_000, 5_000].map(|count| (k, count))) {
+        let (k, mut rng) = (FiniteK::new(k).unwrap(), Rng::new(5));
+        let mut space = FreeSpace::<Centers>::new(Arc::new(map.clone()), CornerRule::Never);
+        let mut graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
+        let mut astar = AStar::new(Arc::clone(&graph), Hk);
+        let mut lpa = LpaStar::new(Arc::clone(&graph), ends);
+        lpa.path().unwrap();
+        let (mut by_lpa, mut by_astar) = (Calls::default(), Calls::default());
+        for _ in 0..if count > 100 { 5 } else { 20 } {
+            let grid = Arc::clone(space.grid());
+            // As many cells become blocked as free, so that the map stays as it is.
+            let mut cells = Vec::new();
+            while cells.len() < count {
+                let (x, y) = (rng.below(SIDE), rng.below(SIDE));
+                let is_end = [ends.start, ends.goal].contains(&(x as i32, y as i32).into());
+                let blocked = grid.is_blocked(x as i32, y as i32);
+                if !is_end && blocked == (cells.len() % 2 == 1) {
+                    cells.push((x, y, !blocked));
+                }
+            }
+            let change = Change::new(grid).edit_cells(cells);
+            space = space.after(&change);
+            graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
+            let (_, cost) = by_lpa.time(|counters| {
+                lpa.change(Arc::clone(&graph), &change);
+                lpa.path_observed(counters).unwrap()
+            });
+            astar.set_graph(Arc::clone(&graph));
+            let (_, by_new) = by_astar.time(|counters| astar.solve_observed(ends, counters).unwrap());
+            assert_eq!(by_new, cost);
+        }
+        println!("| {name} | {k} | {count} | {} | {} |", by_lpa.text(), by_astar.text());
+    }
+}
+
 /// The map with one cell in 100 wrong.
 fn outdated(map: &Grid) -> Grid {
     let mut rng = Rng::new(9);
@@ -234,9 +272,13 @@ fn outdated(map: &Grid) -> Grid {
 fn main() {
     let maps =
         [("noise", map(|rng| noise(rng, SIDE, SIDE, 20))), ("rooms", map(rooms)), ("walls", map(walls))];
+    println!("| map | k | cells | LPA* | exp. | A* | exp. |\n|---|{}", "--:|".repeat(6));
+    for (name, (map, ends)) in &maps {
+        scattered(name, map, *ends);
+    }
     println!(
-        "| map | k | radius | changes | cells | blocked | replans | edit | first | exp. | D* Lite, every change \
-         | exp. | D* Lite | exp. | A* | exp. | canonical | exp. | jps-block | exp. |"
+        "\n| map | k | radius | changes | cells | blocked | replans | edit | first | exp. | D* Lite, every \
+         change | exp. | D* Lite | exp. | A* | exp. | canonical | exp. | jps-block | exp. |"
     );
     println!("|---|{}", "--:|".repeat(19));
     for is_outdated in [false, true] {

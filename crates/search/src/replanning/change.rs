@@ -14,10 +14,7 @@ use super::{
 use crate::gap_nodes::{ends_at, node_at, upper};
 
 /// So many cells are always followed one by one.
-const FEW_CELLS: usize = 8;
-/// Of more cells, one for so many known nodes at most: beyond that all is searched anew, which takes less
-/// (`docs/measurements/replanning.md`).
-const NODES_A_CELL: usize = 16;
+const FEW_CELLS: usize = 64;
 
 impl<P, G, C> Replanner<G, C>
 where
@@ -48,7 +45,7 @@ where
         if self.state.root.is_none() || !is_same_but_for_the_map {
             return self.set_graph(graph, costs);
         }
-        let most = FEW_CELLS.max(self.state.nodes.known() / NODES_A_CELL);
+        let most = FEW_CELLS.max(self.state.nodes.known() / self.nodes_a_cell);
         let changed: Vec<_> = changed_cells::<P, C>(&self.graph, &graph, cells).take(most + 1).collect();
         if changed.len() > most {
             return self.set_graph(graph, costs);
@@ -157,7 +154,8 @@ impl State {
         [before, after]: &[Moves<'_, P, C>; 2],
         id: VertexId,
     ) {
-        // A move between two vertices without a g changes nothing, and where one has it all neighbors are known.
+        // A move between two vertices without a g changes nothing, and where one has it all neighbors are
+        // known.
         let may_be_known = P::closes_gaps(after.graph.rule()) || self.nodes.is_known(id);
         let at = after.graph.vertex(id);
         let legal = [before.graph, after.graph].map(|graph| graph.legal_moves(at));
@@ -190,8 +188,8 @@ impl State {
         }
     }
 
-    /// Lowers rhs by the moves that sweep a freed cell. Few of them would, and only of these is it asked whether
-    /// they are legal; if they were before, nothing changes.
+    /// Lowers rhs by the moves that sweep a freed cell. Few of them would, and only of these is it asked
+    /// whether they are legal; if they were before, nothing changes.
     fn lower_across<P: Placement, C: MoveCosts<P>>(
         &mut self,
         moves: &Moves<'_, P, C>,

@@ -8,7 +8,8 @@ use mediant_moves::Cost;
 /// What the moves of a grid graph cost, for [`LpaStar`](crate::LpaStar) and [`DStarLite`](crate::DStarLite).
 ///
 /// A move costs the same in both directions, and at least its length ([`Step::cost`](mediant_grid::Step)): so
-/// h_k stays a lower bound. Its cost depends on nothing but the move and the cells that it sweeps.
+/// h_k stays a lower bound. Its cost depends on nothing but the move and the cells that it sweeps. A path
+/// costs less than 2³⁰ cells.
 pub trait MoveCosts<P: Placement>: Debug {
     /// Whether a move costs the same wherever it is legal, so that a change of the map changes no cost of a
     /// move that stays legal.

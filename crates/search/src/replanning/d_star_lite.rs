@@ -17,6 +17,10 @@ use crate::{
     query::{Ends, QueryError},
 };
 
+/// What changes is near the robot, where few distances come by it, and a new search from the goal takes
+/// longer than A* from the robot: so it begins anew late (`docs/measurements/replanning.md`).
+const NODES_A_CELL: usize = 16;
+
 /// D* Lite over N(k) (Koenig & Likhachev 2002): the paths of a robot to its goal, while it moves and the map
 /// changes. It searches only what a change alters, as far as the robot needs it.
 ///
@@ -36,7 +40,8 @@ use crate::{
 /// robot.move_to(Vertex::new(4, 4));
 /// let change = Change::new(unknown).edit_cells((2..=4).map(|y| (5, y, true)));
 /// robot.change(Arc::new(GridGraph::in_space(&space.after(&change), FiniteK::N16)?), &change);
-/// assert_eq!(robot.path()?.path().map(ToString::to_string).as_deref(), Some("(4, 4) → (4, 5) → (6, 5) → (8, 4)"));
+/// let path = robot.path()?.into_path().map(|path| path.to_string());
+/// assert_eq!(path.as_deref(), Some("(4, 4) → (4, 5) → (6, 5) → (8, 4)"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -64,7 +69,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, C: MoveCosts<P>> DStarLite<G
     /// The same with costs of one's own.
     #[must_use]
     pub fn with_costs(graph: G, costs: C, ends: impl Into<Ends>) -> Self {
-        Self { search: Replanner::new(graph, costs), ends: ends.into(), cost: None }
+        Self { search: Replanner::new(graph, costs, NODES_A_CELL), ends: ends.into(), cost: None }
     }
 
     /// Moves the robot to another vertex, on its path or not.

@@ -17,6 +17,10 @@ use crate::{
     query::{Ends, QueryError},
 };
 
+/// Cells anywhere may change, and a new search takes as long as A*: so it begins anew early
+/// (`docs/measurements/replanning.md`).
+const NODES_A_CELL: usize = 256;
+
 /// LPA* over N(k) (Lifelong Planning A*; Koenig, Likhachev & Furcy 2004): answers one query again and again
 /// while the map changes, and searches only what a change alters.
 ///
@@ -63,7 +67,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>, C: MoveCosts<P>> LpaStar<G, 
     /// The same with costs of one's own.
     #[must_use]
     pub fn with_costs(graph: G, costs: C, ends: impl Into<Ends>) -> Self {
-        Self { search: Replanner::new(graph, costs), ends: ends.into(), cost: None }
+        Self { search: Replanner::new(graph, costs, NODES_A_CELL), ends: ends.into(), cost: None }
     }
 
     /// A shortest path on the map as it is now.

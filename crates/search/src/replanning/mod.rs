@@ -14,14 +14,23 @@
 //! vertices beside the changed moves, and the search settles what follows from that, as far as the target
 //! needs it.
 //!
-//! **The key decision: of a vertex nothing is stored but g and rhs, and the changed moves are found, not
-//! recorded.** 2^k moves a vertex are too many to store, and a cell is swept by many: at k = 7 by some two
-//! thousand from 180 vertices, at k = 12 by half a million. So a change asks both grid graphs, the one before
-//! and the one after. The footprints of all moves, turned round, name the vertices of which a move may sweep
-//! a changed cell (`reach.rs`). Of these only the known ones count, since a move between two vertices whose g
-//! is infinite changes no rhs; and of a known one the sets of legal moves before and after say which moves
-//! differ. What differs is a fact of two maps, and the work is that of expanding the known vertices around
-//! the cells twice.
+//! **The key decision: no edge is stored, and the moves that matter are found.** 2^k moves a vertex are too
+//! many to store, and many sweep one cell: at k = 7 more than a thousand, at k = 12 some 240,000. The
+//! footprints of all moves, turned round, name the moves that may sweep a changed cell, by offsets from it
+//! (`reach.rs`). Few of them matter, and which ones the values tell (`change.rs`):
+//!
+//! - *A cell was blocked.* Moves became illegal. A node knows the move by which it has its rhs. While that
+//!   one is legal, others may go as they please. So one move a vertex is looked at, instead of 2^k.
+//! - *A cell was freed.* Moves became legal. One matters if it lowers the rhs of one of its ends. That is a
+//!   comparison of sums, which few moves pass, and only of these the cells are looked at.
+//! - *Costs changed* ([`MoveCosts`]), or a closed gap came or went. All moves of the vertices are compared,
+//!   before and after: the grid graph of the map before is still there.
+//!
+//! The same move tells whether a node is concerned when a neighbor turns out to be farther: the published
+//! algorithms ask whether the sums are equal, which is true of many neighbors on open ground, where many
+//! paths are equally long. Each question is a look at 2^k moves.
+//!
+//! Of a node nothing else is stored: g, rhs, a move, and a slot of the open list are 24 bytes.
 //!
 //! **Exact costs.** g, rhs and keys are integers ([`Cost`](mediant_moves::Cost)), so 'the two differ' needs
 //! no tolerance. h_k is the cost of a path on an empty grid in the same integers. So it is a lower bound, and
@@ -44,7 +53,8 @@
 //! **Ties.** Of several shortest paths the one is taken that, followed from the target, goes straight on
 //! where it can and else takes the move of the lowest index.
 //!
-//! When replanning is faster than a new search, and when not: `docs/measurements/replanning.md`.
+//! **When it is not worth it.** Large changes are searched anew (`change.rs`). Where the ground ahead is
+//! free, A* goes straight to the goal, and is faster from k = 4 on: see `docs/measurements/replanning.md`.
 
 mod change;
 mod costs;

@@ -105,7 +105,8 @@ impl Nodes {
     }
 }
 
-/// The last generation. After it, once in a million searches, the nodes are cleared and the count begins anew.
+/// The last generation. After it, once in a million searches, the nodes are cleared and the count begins
+/// anew.
 const LAST_GENERATION: u32 = u32::MAX >> Node::MOVE_BITS;
 
 /// The generation of a node by its last word.

@@ -24,6 +24,8 @@ pub(super) struct Replanner<G, C> {
     pub(super) state: State,
     /// From where moves sweep a cell: found at the first change.
     pub(super) reach: Option<Reach>,
+    /// Of many changed cells, one for so many known nodes at most: beyond that all is searched anew.
+    pub(super) nodes_a_cell: usize,
 }
 
 /// What the search knows.
@@ -51,7 +53,7 @@ where
     G: Deref<Target = GridGraph<P>>,
     C: MoveCosts<P>,
 {
-    pub(super) fn new(graph: G, costs: C) -> Self {
+    pub(super) fn new(graph: G, costs: C, nodes_a_cell: usize) -> Self {
         let state = State {
             nodes: Nodes::new(node_count(&*graph)),
             open: OpenList::default(),
@@ -61,7 +63,7 @@ where
             moved: Cost::ZERO,
             stale: Vec::new(),
         };
-        Self { graph, costs, state, reach: None }
+        Self { graph, costs, state, reach: None, nodes_a_cell }
     }
 
     /// Continues with another grid graph and forgets all of this one.
@@ -264,8 +266,8 @@ impl State {
         }
     }
 
-    /// Finds the rhs of all marked nodes anew. None is lower than it was: where moves became legal or cheaper,
-    /// it has been [lowered](Self::lower) before.
+    /// Finds the rhs of all marked nodes anew. None is lower than it was: where moves became legal or
+    /// cheaper, it has been [lowered](Self::lower) before.
     pub(super) fn renew<P: Placement, C: MoveCosts<P>>(
         &mut self,
         graph: &GridGraph<P>,
@@ -306,9 +308,9 @@ impl State {
         let f = rhs + graph.costs().distance(at.to(self.target_at));
         let event = NodeEvent { at, parent: None, g: rhs, f };
         if self.nodes.is_known(id) {
-            observer.updated(event)
+            observer.updated(event);
         } else {
-            observer.generated(event)
+            observer.generated(event);
         }
         self.put(graph, (id, at), Node { rhs, by, ..node }, observer);
     }

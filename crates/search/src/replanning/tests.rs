@@ -56,7 +56,8 @@ fn check_changes<P: Placement>(seed: u64, rule: P::Rule, k: u32) -> usize {
     let (mut rng, k) = (Rng::new(seed), FiniteK::new(k).expect("k is at least 2"));
     let mut grid = Arc::new(suite_grid(seed).0);
     let mut space = FreeSpace::<P>::for_k(Arc::clone(&grid), rule, k.into());
-    let mut search = Replanner::new(Arc::new(GridGraph::in_space(&space, k).expect("k is small")), Lengths);
+    let mut search =
+        Replanner::new(Arc::new(GridGraph::in_space(&space, k).expect("k is small")), Lengths, 16);
     let Some(root) = random_free_vertex(&mut rng, &grid, P::KIND).and_then(|at| space.id(at)) else {
         return 0;
     };
@@ -79,7 +80,7 @@ fn check_changes<P: Placement>(seed: u64, rule: P::Rule, k: u32) -> usize {
 
 #[test]
 fn values_are_what_the_neighbors_say_after_every_change() {
-    let seeds = seeds(30);
+    let seeds = seeds(150);
     let count = seeds.end as usize;
     let open: usize = seeds
         .map(|seed| {
@@ -90,14 +91,14 @@ fn values_are_what_the_neighbors_say_after_every_change() {
             open + corners.map(|rule| check_changes::<Corners>(seed, rule, k)).iter().sum::<usize>()
         })
         .sum();
-    assert!(open > 1_000 * count, "{open} nodes");
+    assert!(open > 500 * count, "{open} nodes");
 }
 
 #[test]
 fn a_target_may_move_for_ever() {
     let grid = Arc::new(Grid::from_fn(9, 1, |_, _| false).expect("a valid size"));
     let graph = GridGraph::<Centers>::new(grid, FiniteK::N4, CornerRule::Never).expect("a valid k");
-    let mut search = Replanner::new(&graph, Lengths);
+    let mut search = Replanner::new(&graph, Lengths, 16);
     let cells = |cells: u32| Cost::of_move((1, 0).into()) * cells;
     assert_eq!(search.search(VertexId(0), VertexId(3), &mut ()), Some(cells(3)));
     // Below the limit keys do not overflow, and beyond it all is searched anew.
