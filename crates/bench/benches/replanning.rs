@@ -224,41 +224,39 @@ fn map(make: impl Fn(&mut Rng) -> Grid) -> (Grid, Ends) {
     (maps.find(has_way).unwrap(), ends)
 }
 
-/// LPA* after changes of so many random cells anywhere, beside A*. The first table: how much may change.
-fn scattered(name: &str, map: &Grid, ends: Ends) {
-    for (k, count) in (3..=7).step_by(2).flat_map(|k| [1, 10, 100, 1_000, 5_000].map(|count| (k, count))) {
-        let (k, mut rng) = (FiniteK::new(k).unwrap(), Rng::new(5));
-        let mut space = FreeSpace::<Centers>::new(Arc::new(map.clone()), CornerRule::Never);
-        let mut graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
-        let mut astar = AStar::new(Arc::clone(&graph), Hk);
-        let mut lpa = LpaStar::new(Arc::clone(&graph), ends);
-        lpa.path().unwrap();
-        let (mut by_lpa, mut by_astar) = (Calls::default(), Calls::default());
-        for _ in 0..if count > 100 { 5 } else { 20 } {
-            let grid = Arc::clone(space.grid());
-            // As many cells become blocked as free, so that the map stays as it is.
-            let mut cells = Vec::new();
-            while cells.len() < count {
-                let (x, y) = (rng.below(SIDE), rng.below(SIDE));
-                let is_end = [ends.start, ends.goal].contains(&(x as i32, y as i32).into());
-                let blocked = grid.is_blocked(x as i32, y as i32);
-                if !is_end && blocked == (cells.len() % 2 == 1) {
-                    cells.push((x, y, !blocked));
-                }
+/// LPA* after changes of so many random cells anywhere, beside A*: how much may change.
+fn scatter(map: &Grid, ends: Ends, k: FiniteK, count: usize) -> [Calls; 2] {
+    let mut rng = Rng::new(5);
+    let mut space = FreeSpace::<Centers>::new(Arc::new(map.clone()), CornerRule::Never);
+    let mut graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
+    let mut astar = AStar::new(Arc::clone(&graph), Hk);
+    let mut lpa = LpaStar::new(Arc::clone(&graph), ends);
+    lpa.path().unwrap();
+    let (mut by_lpa, mut by_astar) = (Calls::default(), Calls::default());
+    for _ in 0..if count > 100 { 5 } else { 20 } {
+        let grid = Arc::clone(space.grid());
+        // As many cells become blocked as free, so that the map stays as it is.
+        let mut cells = Vec::new();
+        while cells.len() < count {
+            let (x, y) = (rng.below(SIDE), rng.below(SIDE));
+            let is_end = [ends.start, ends.goal].contains(&(x as i32, y as i32).into());
+            let blocked = grid.is_blocked(x as i32, y as i32);
+            if !is_end && blocked == (cells.len() % 2 == 1) {
+                cells.push((x, y, !blocked));
             }
-            let change = Change::new(grid).edit_cells(cells);
-            space = space.after(&change);
-            graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
-            let (_, cost) = by_lpa.time(|counters| {
-                lpa.change(Arc::clone(&graph), &change);
-                lpa.path_observed(counters).unwrap()
-            });
-            astar.set_graph(Arc::clone(&graph));
-            let (_, by_new) = by_astar.time(|counters| astar.solve_observed(ends, counters).unwrap());
-            assert_eq!(by_new, cost);
         }
-        println!("| {name} | {k} | {count} | {} | {} |", by_lpa.text(), by_astar.text());
+        let change = Change::new(grid).edit_cells(cells);
+        space = space.after(&change);
+        graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
+        let (_, cost) = by_lpa.time(|counters| {
+            lpa.change(Arc::clone(&graph), &change);
+            lpa.path_observed(counters).unwrap()
+        });
+        astar.set_graph(Arc::clone(&graph));
+        let (_, by_new) = by_astar.time(|counters| astar.solve_observed(ends, counters).unwrap());
+        assert_eq!(by_new, cost);
     }
+    [by_lpa, by_astar]
 }
 
 /// The map with one cell in 100 wrong.
@@ -274,7 +272,15 @@ fn main() {
         [("noise", map(|rng| noise(rng, SIDE, SIDE, 20))), ("rooms", map(rooms)), ("walls", map(walls))];
     println!("| map | k | cells | LPA* | exp. | A* | exp. |\n|---|{}", "--:|".repeat(6));
     for (name, (map, ends)) in &maps {
-        scattered(name, map, *ends);
+        for (k, count) in (3..=7).step_by(2).flat_map(|k| [1, 10, 100, 1_000, 5_000].map(|count| (k, count)))
+        {
+            let scatter = || scatter(map, *ends, FiniteK::new(k).unwrap(), count);
+            let mut calls = scatter();
+            for _ in 1..PASSES {
+                calls.iter_mut().zip(&scatter()).for_each(|(calls, other)| calls.shorten(other));
+            }
+            println!("| {name} | {k} | {count} | {} |", calls.map(|calls| calls.text()).join(" | "));
+        }
     }
     println!(
         "\n| map | k | radius | changes | cells | blocked | replans | edit | first | exp. | D* Lite, every \

@@ -14,7 +14,7 @@ use super::{
 use crate::gap_nodes::{ends_at, node_at, upper};
 
 /// So many cells are always followed one by one.
-const FEW_CELLS: usize = 64;
+const FEW_CELLS: usize = 128;
 
 impl<P, G, C> Replanner<G, C>
 where
