@@ -25,8 +25,8 @@ impl Entry {
         Self((f.to_bits() as u128) << 64 | (coarse as u128) << 32 | id.0 as u128)
     }
 
-    /// The entry of a vertex in a search that goes by keys of two parts: ordered by the first one, then by the
-    /// second one in whole cells, then by vertex id.
+    /// The entry of a vertex in a search that goes by keys of two parts: ordered by the first one, then by
+    /// the second one in whole cells, then by vertex id.
     #[must_use]
     #[inline]
     pub(crate) const fn keyed(first: Cost, second: Cost, id: VertexId) -> Self {
@@ -34,7 +34,7 @@ impl Entry {
         Self((first.to_bits() as u128) << 64 | (cells as u128) << 32 | id.0 as u128)
     }
 
-    /// What it is ordered by before its vertex: the key.
+    /// Its key: all that it is ordered by before its vertex.
     #[must_use]
     #[inline]
     pub(crate) const fn key(self) -> u128 {

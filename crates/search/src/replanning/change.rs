@@ -1,4 +1,4 @@
-//! What a change of the map does to the values of nodes.
+//! The values of nodes after a change of the map.
 
 use std::ops::Deref;
 

@@ -1,11 +1,12 @@
-//! What moves cost.
+//! The costs of moves.
 
 use std::fmt::Debug;
 
 use mediant_grid::{GridGraph, Placement, Vertex};
 use mediant_moves::Cost;
 
-/// What the moves of a grid graph cost, for [`LpaStar`](crate::LpaStar) and [`DStarLite`](crate::DStarLite).
+/// The costs of the moves of a grid graph, for [`LpaStar`](crate::LpaStar) and
+/// [`DStarLite`](crate::DStarLite).
 ///
 /// A move costs the same in both directions, and at least its length ([`Step::cost`](mediant_grid::Step)): so
 /// h_k stays a lower bound. Its cost depends on nothing but the move and the cells that it sweeps. A path

@@ -17,8 +17,8 @@ use crate::{
     query::{Ends, QueryError},
 };
 
-/// What changes is near the robot, where few distances come by it, and a new search from the goal takes
-/// longer than A* from the robot: so it begins anew late (`docs/measurements/replanning.md`).
+/// Changes are near the robot, where few distances come by them, and a new search from the goal takes longer
+/// than A* from the robot: so it begins anew late (`docs/measurements/replanning.md`).
 const NODES_A_CELL: usize = 16;
 
 /// D* Lite over N(k) (Koenig & Likhachev 2002): the paths of a robot to its goal, while it moves and the map

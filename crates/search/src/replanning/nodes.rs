@@ -3,7 +3,7 @@
 use mediant_grid::{Centers, GridGraph, VertexId};
 use mediant_moves::Cost;
 
-/// What a search knows of a vertex, or of one of the two nodes of a closed gap.
+/// The values of a vertex, or of one of the two nodes of a closed gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Node {
     /// The distance from the root as it was last settled; [`Cost::MAX`] for none.

@@ -28,7 +28,7 @@ pub(super) struct Replanner<G, C> {
     pub(super) nodes_a_cell: usize,
 }
 
-/// What the search knows.
+/// All that the search knows.
 #[derive(Clone, Debug)]
 pub(super) struct State {
     pub(super) nodes: Nodes,

@@ -56,7 +56,7 @@ fn check<P: Placement>(
     }
 }
 
-/// What happened in a suite.
+/// The sums of a suite.
 #[derive(Debug, Default)]
 struct Told {
     found: usize,
@@ -89,7 +89,7 @@ fn check_changes<P: Placement>(seed: u64, rule: P::Rule, k: u32, told: &mut Told
     let mut astar = AStar::new(Arc::clone(&graph), Hk);
     let mut lpa = LpaStar::new(Arc::clone(&graph), ends);
     let mut robot = DStarLite::new(Arc::clone(&graph), ends);
-    // What LPA* was not told yet.
+    // Changes of which LPA* was not told yet.
     let mut untold = Change::new(Arc::clone(&grid));
     for round in 0..20 {
         let from = robot.ends();
