@@ -23,7 +23,8 @@ const GAIN: f64 = 1.0 / (1_u64 << 30) as f64;
 
 impl Planner {
     /// Keeps or replaces a path of this planner after a change of the map. An agent that has gone a part of
-    /// its way hands over the [rest](Path::rest). The planner answers on an index of the space after the change.
+    /// its way hands over the [rest](Path::rest). The planner answers on an index of the space after the
+    /// change.
     ///
     /// The rule:
     /// 1. If the path does not hold any more, a new one is searched.

@@ -15,6 +15,9 @@
 //! | [`ThetaStar`], [`LazyThetaStar`] | any-angle | all |
 //! | [`Anya`] | optimal over N(k), or any-angle; at corners | all, ∞ |
 //!
+//! [`LpaStar`] and [`DStarLite`] answer one query again and again while the map changes, and keep what they
+//! know: optimal over N(k), for all k.
+//!
 //! [`Smoothed`] makes the paths of any planner shorter, at any angle. A [`Search`] answers a [`Query`] by
 //! any planner: a query with several ends, a tolerance, limits, in steps.
 //!
@@ -47,6 +50,7 @@ mod counted;
 mod distances;
 mod field;
 mod filled;
+mod gap_nodes;
 mod guarantee;
 mod heuristic;
 mod jps;
@@ -63,6 +67,7 @@ mod planner;
 mod query;
 #[cfg(doctest)]
 mod readme;
+mod replanning;
 mod search_tree;
 mod segment;
 mod smoothing;
@@ -84,6 +89,7 @@ pub use observer::{Counters, NodeEvent, Observer};
 pub use path::{BrokenPath, JoinError, Path, SpacingError, Turn};
 pub use planner::{Planner, SearchStatus};
 pub use query::{End, Ends, Limit, Limits, Query, QueryError, Search, Stopped};
+pub use replanning::{DStarLite, Lengths, LpaStar, MoveCosts};
 pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};
 pub use theta::{LazyThetaStar, ThetaStar};
 pub use wavefront::Wavefront;

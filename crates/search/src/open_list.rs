@@ -25,6 +25,22 @@ impl Entry {
         Self((f.to_bits() as u128) << 64 | (coarse as u128) << 32 | id.0 as u128)
     }
 
+    /// The entry of a vertex in a search that goes by keys of two parts: ordered by the first one, then by
+    /// the second one in whole cells, then by vertex id.
+    #[must_use]
+    #[inline]
+    pub(crate) const fn keyed(first: Cost, second: Cost, id: VertexId) -> Self {
+        let cells = second.to_bits() >> Cost::FRACTION_BITS;
+        Self((first.to_bits() as u128) << 64 | (cells as u128) << 32 | id.0 as u128)
+    }
+
+    /// Its key: all that it is ordered by before its vertex.
+    #[must_use]
+    #[inline]
+    pub(crate) const fn key(self) -> u128 {
+        self.0 >> 32
+    }
+
     /// Its f.
     #[must_use]
     #[inline]
@@ -103,7 +119,38 @@ impl OpenList {
     pub fn pop(&mut self, mut moved: impl FnMut(VertexId, u32)) -> Option<(Entry, u32)> {
         let last = self.heap.pop()?;
         let Some(&first) = self.heap.first() else { return Some((last, 0)) };
-        Some((first, self.sift_down(last, &mut moved)))
+        Some((first, self.sift_down(0, last, &mut moved)))
+    }
+
+    /// Puts another entry of the same vertex into a slot. Does nothing for a slot that is not in use.
+    #[inline]
+    pub fn replace(&mut self, slot: u32, entry: Entry, mut moved: impl FnMut(VertexId, u32)) -> u32 {
+        let Some(&known) = self.heap.get(slot as usize) else { return 0 };
+        self.sift(slot as usize, known, entry, &mut moved)
+    }
+
+    /// Removes the entry in a slot. Does nothing for a slot that is not in use.
+    #[inline]
+    pub fn remove(&mut self, slot: u32, mut moved: impl FnMut(VertexId, u32)) -> u32 {
+        let Some(&known) = self.heap.get(slot as usize) else { return 0 };
+        match self.heap.pop() {
+            Some(last) if (slot as usize) < self.heap.len() => {
+                self.sift(slot as usize, known, last, &mut moved)
+            }
+            _ => 0,
+        }
+    }
+
+    /// Puts `entry` where it belongs, from the slot on in which `known` was.
+    #[inline]
+    fn sift(
+        &mut self,
+        slot: usize,
+        known: Entry,
+        entry: Entry,
+        moved: &mut impl FnMut(VertexId, u32),
+    ) -> u32 {
+        if entry < known { self.sift_up(slot, entry, moved) } else { self.sift_down(slot, entry, moved) }
     }
 
     /// Puts `entry` into the free slot `slot` or as far above it as it belongs.
@@ -126,11 +173,11 @@ impl OpenList {
         swaps
     }
 
-    /// Puts `entry` into the free root or as far below it as it belongs.
+    /// Puts `entry` into the free slot `slot` or as far below it as it belongs.
     #[inline]
-    fn sift_down(&mut self, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+    fn sift_down(&mut self, mut slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
         let heap = self.heap.as_mut_slice();
-        let (mut slot, mut swaps) = (0, 0);
+        let mut swaps = 0;
         while let Some(&left) = heap.get(2 * slot + 1) {
             // Which child is less is not predictable, so the code must not branch on it.
             let right = heap.get(2 * slot + 2).copied().unwrap_or(left);

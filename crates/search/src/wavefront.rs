@@ -11,7 +11,7 @@
 //! a gap within the quadrant of a free cell, both lie in the closed cone of that cell, and their sum is a
 //! move, or two moves, over other corners of cells that they sweep (k = 3: along or across the cell; k = 4:
 //! also along its two neighbors). From k = 5 on it is false: the sum may need three moves. There the search
-//! enters gaps, and has a node for each of the two free quadrants of a gap (module [`quadrants`]).
+//! enters gaps, and has a node for each of the two free quadrants of a gap (module `gap_nodes`).
 //!
 //! Ties: the vertices of a layer are expanded in the order in which they were reached, their moves in the
 //! order of [`GridGraph::for_each_legal_move`], and the first move that reaches a vertex is kept.
@@ -26,9 +26,10 @@ use std::ops::Deref;
 use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex, VertexId, uninterrupted};
 use mediant_moves::{Cost, FiniteK};
 
-use self::quadrants::{Back, ends_at, node_at, node_count, passes_gaps, vertex_of};
+use self::quadrants::{Back, node_at, node_count, passes_gaps};
 use crate::{
     distances::{Distances, end_at_gaps},
+    gap_nodes::{ends_at, vertex_of},
     guarantee::Guarantee,
     nodes::NodeStore,
     observer::{NodeEvent, Observer},

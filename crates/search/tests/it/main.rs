@@ -20,6 +20,7 @@ mod open_list;
 mod path;
 mod path_change;
 mod queries;
+mod replanning;
 mod smoothing;
 mod snapshots;
 mod theta;

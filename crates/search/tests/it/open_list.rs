@@ -59,6 +59,21 @@ fn the_heap_yields_what_a_sorted_set_yields_and_knows_every_slot() {
                 sorted.remove(&entry);
                 sorted.insert(Entry::new(entry.f() - gain, h_of[&entry.id()], entry.id()));
             }
+            // Any entry, whether it becomes less or greater, or leaves.
+            let any = sorted.iter().nth(rng.below(sorted.len().max(1) as u32) as usize).copied();
+            if let Some(entry) = any.filter(|_| rng.chance(50)) {
+                let slot = slots[&entry.id()];
+                sorted.remove(&entry);
+                if rng.chance(40) {
+                    open.remove(slot, |id, slot| _ = slots.insert(id, slot));
+                    slots.remove(&entry.id());
+                } else {
+                    let f = Cost::from_bits(u64::from(500 + rng.below(500)));
+                    let other = Entry::new(f, h_of[&entry.id()], entry.id());
+                    open.replace(slot, other, |id, slot| _ = slots.insert(id, slot));
+                    sorted.insert(other);
+                }
+            }
             assert_eq!(open.len(), sorted.len());
             if id % 50 == 0 {
                 for entry in &sorted {
@@ -83,4 +98,5 @@ fn swaps_are_counted() {
     // The heap is 0; 3 1; 6 4 5 2: the last entry, 2, replaces the root and changes places with 1 alone.
     assert_eq!(open.pop(|_, _| ()), Some((entry(0), 1)));
     assert_eq!(open.decrease(99, Cost::ZERO, |_, _| ()), 0);
+    assert_eq!((open.remove(99, |_, _| ()), open.replace(99, entry(0), |_, _| ()), open.len()), (0, 0, 6));
 }
