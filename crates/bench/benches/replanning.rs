@@ -195,7 +195,7 @@ fn search_anew(
     cost: Option<Cost>,
 ) {
     let (_, by_astar) = run.astar.time(|counters| {
-        astar.set_graph(Arc::clone(graph));
+        astar.follow(Arc::clone(graph));
         astar.solve_observed(ends, counters).unwrap()
     });
     assert_eq!(by_astar, cost);
@@ -252,7 +252,7 @@ fn scatter(map: &Grid, ends: Ends, k: FiniteK, count: usize) -> [Calls; 2] {
             lpa.change(Arc::clone(&graph), &change);
             lpa.path_observed(counters).unwrap()
         });
-        astar.set_graph(Arc::clone(&graph));
+        astar.follow(Arc::clone(&graph));
         let (_, by_new) = by_astar.time(|counters| astar.solve_observed(ends, counters).unwrap());
         assert_eq!(by_new, cost);
     }

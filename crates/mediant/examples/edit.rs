@@ -5,7 +5,7 @@ use mediant::{Engine, K, Map, Motion, Query, Rectangle};
 
 fn main() -> Result<(), mediant::Error> {
     let walled = Map::from_fn(64, 64, |x, _| x == 30)?.space(Motion::centers(K::N8))?;
-    let index = walled.prepare(Engine::Hpa)?;
+    let index = walled.prepare(Engine::JpsBlock)?;
     let mut planner = index.planner();
 
     let change = walled.edit(Rectangle::new(30, 20, 1, 2), |_, _| false)?;

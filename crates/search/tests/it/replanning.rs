@@ -123,7 +123,7 @@ fn check_changes<P: Placement>(seed: u64, rule: P::Rule, k: u32, told: &mut Told
         space = space.after(&change);
         grid = Arc::clone(change.after());
         graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
-        astar.set_graph(Arc::clone(&graph));
+        astar.follow(Arc::clone(&graph));
         robot.change(Arc::clone(&graph), &change);
         untold = untold.then(change).unwrap();
         if rng.chance(80) {
@@ -195,7 +195,7 @@ fn through_all_maps_of_nine_cells() {
             let change = Change::new(Arc::clone(&grid)).edit_cells([(x, y, !blocked)]);
             (space, grid) = (space.after(&change), Arc::clone(change.after()));
             graph = Arc::new(GridGraph::in_space(&space, k).unwrap());
-            astar.set_graph(Arc::clone(&graph));
+            astar.follow(Arc::clone(&graph));
             lpa.change(Arc::clone(&graph), &change);
             robot.change(Arc::clone(&graph), &change);
         }
