@@ -93,7 +93,7 @@ fn only_the_first_map_makes_tables() {
             let (first, second) = (allocated(4, motion), allocated(60, motion));
             // The moves with their offsets, a copy of the costs, and the least that every map takes.
             let moves = 1 << k.get();
-            let own = 16 * moves + 8 * (moves / 4 + 1) + 2048;
+            let own = 16 * moves + 8 * (moves / 4 + 1) + 2560;
             assert!(second <= own, "{motion}: {second} bytes, at most {own}");
             let tables = 20 * moves;
             assert!(first >= second + tables, "{motion}: {first} bytes, then {second}");
