@@ -8,6 +8,7 @@ mod common;
 mod events;
 mod exact;
 mod exhaustive;
+mod field_changes;
 mod fields;
 mod heuristics;
 mod identity;
