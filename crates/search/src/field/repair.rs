@@ -34,16 +34,16 @@ use super::{buckets::Buckets, gaps::past_a_gap};
 /// takes little, and elsewhere. Where they were cut off, of which a new field takes no notice, a third of that.
 /// Measured so that even then both together mostly take at most 1.5 times as long as the new field: see
 /// `docs/measurements/search.md`.
-const SHARE: [usize; 2] = [32, 6];
+const SHARE: [u64; 2] = [32, 6];
 
 /// One in so many may be looked at before all that is found out.
-const FIRST_SHARE: usize = 512;
+const FIRST_SHARE: u64 = 512;
 
 /// So many vertices tell whether ground is open.
 const SAMPLE: usize = 256;
 
 /// So many are always looked at.
-const AT_LEAST: usize = 256;
+const AT_LEAST: u64 = 256;
 
 /// The number of looks between two questions of an interrupt.
 const LOOK: usize = crate::Limits::EXPANSIONS_PER_LOOK as usize;
@@ -60,11 +60,12 @@ pub(super) fn repaired<P: Placement>(
     interrupt.check("repairing the distances of a field")?;
     let longest = graph.steps().iter().map(|step| step.cost).max().unwrap_or(Cost::ZERO);
     // What lies around a source as far as the field reaches, if that is less than the map.
-    let side = 2 * (reach.to_bits() >> Cost::FRACTION_BITS) as usize + 3;
-    let count = graph.vertex_count().min(side.saturating_mul(side).saturating_mul(sources.len()));
+    let side = 2 * (reach.to_bits() >> Cost::FRACTION_BITS) + 3;
+    let around = side.saturating_mul(side).saturating_mul(sources.len() as u64);
+    let count = around.min(graph.vertex_count() as u64);
     let near = near(graph, cells);
-    let area = |[x, y]: &[(i32, i32); 2]| (x.1 - x.0) as usize * (y.1 - y.0) as usize;
-    let all_near = near.iter().map(area).sum::<usize>();
+    let area = |[x, y]: &[(i32, i32); 2]| (x.1 - x.0) as u64 * (y.1 - y.0) as u64;
+    let all_near = near.iter().map(area).sum::<u64>();
     if all_near > count / SHARE[0] + AT_LEAST {
         return Ok(None);
     }
@@ -118,12 +119,12 @@ struct Repair<'r, P: Placement> {
     /// Vertices with distances, on their way to the queue.
     found: Vec<(Cost, Vertex)>,
     sources: &'r [Vertex],
-    /// The nearest vertex that is raised.
+    /// The nearest free vertex that is raised.
     nearest: Option<(Cost, Vertex)>,
     /// How many vertices may be looked at yet.
-    looks: usize,
+    looks: u64,
     /// The vertices of a new field at most; 0 once it is known how many may be looked at.
-    count: usize,
+    count: u64,
     interrupt: &'r Interrupt,
 }
 
@@ -143,7 +144,8 @@ impl<P: Placement> Repair<'_, P> {
             }
             self.found.clear();
         }
-        self.nearest = seeds.iter().copied().min_by_key(|&(cost, _)| cost);
+        let free = seeds.iter().copied().filter(|&(_, at)| self.graph.is_free(at));
+        self.nearest = free.min_by_key(|&(cost, _)| cost);
         self.in_order(seeds, Self::raise_one)
     }
 
@@ -178,7 +180,11 @@ impl<P: Placement> Repair<'_, P> {
                     self.buckets.push(cost, at);
                 }
                 while let Some(at) = self.buckets.pop() {
-                    self.interrupt.check_every(LOOK, self.looks, "repairing the distances of a field")?;
+                    self.interrupt.check_every(
+                        LOOK,
+                        self.looks as usize,
+                        "repairing the distances of a field",
+                    )?;
                     if self.looks == 0 && !self.looks_on() {
                         return Ok(false);
                     }
@@ -195,26 +201,29 @@ impl<P: Placement> Repair<'_, P> {
 
     /// Whether more vertices may be looked at.
     fn looks_on(&mut self) -> bool {
-        let (graph, all) = (self.graph, std::mem::take(&mut self.count));
-        let sample = (0..all as u32).step_by((all / SAMPLE).max(1)).map(|id| graph.vertex(VertexId(id)));
+        let (graph, count) = (self.graph, std::mem::take(&mut self.count));
+        let every = (graph.vertex_count() / SAMPLE).max(1);
+        let sample = (0..graph.vertex_count() as u32).step_by(every).map(VertexId);
         let (mut sampled, mut free, mut open) = (0, 0, 0);
-        for at in sample {
+        for at in sample.map(|id| graph.vertex(id)) {
             sampled += 1;
             if graph.is_free(at) {
                 let mut legal = 0;
                 graph.for_each_legal_move(at, |_| legal += 1);
                 free += 1;
-                open += usize::from(legal == graph.steps().len());
+                open += u64::from(legal == graph.steps().len());
             }
         }
-        let mut left = free * all / sampled.max(1);
+        let mut left = free * count / sampled.max(1);
         let is_cut_off =
             |&(_, at): &(Cost, Vertex)| !self.sources.iter().any(|&source| graph.connected(source, at));
         if let Some((cost, _)) = self.nearest.filter(is_cut_off) {
             let nearer = self.costs.words().iter().filter(|&&other| other < cost).count();
-            left = left.min(nearer) / 3;
+            left = left.min(nearer as u64) / 3;
         }
-        self.looks = left * free / (SHARE[0] * open + SHARE[1] * (free - open)).max(1);
+        // By the square of the part that is open: whether two things are so in a row.
+        let (all, open) = (free * free, open * open);
+        self.looks = left * all / (SHARE[0] * open + SHARE[1] * (all - open)).max(1);
         self.looks > 0
     }
 

@@ -237,13 +237,13 @@ fn any_angle_fields_are_kept_where_no_path_comes_near() {
 /// A repair looks at what is cut off, unless hardly anything else is left for a new field.
 #[test]
 fn fields_without_what_is_cut_off() {
-    // Rooms of 20 × 20, 100 × 100 and 80 × 100 cells in a row, with a door between two.
-    let is_wall = |x: u32, y: u32| [20, 121].contains(&x) && y != 5 || x < 20 && y >= 20;
-    let grid = Arc::new(Grid::from_fn(202, 100, is_wall).unwrap());
+    // Rooms of 12 × 12, 100 × 100 and 80 × 100 cells in a row, with a door between two.
+    let is_wall = |x: u32, y: u32| [12, 113].contains(&x) && y != 5 || x < 12 && y >= 12;
+    let grid = Arc::new(Grid::from_fn(194, 100, is_wall).unwrap());
     let k = FiniteK::N8;
     let graph = Arc::new(GridGraph::<Centers>::new(Arc::clone(&grid), k, CornerRule::Never).unwrap());
     for (source, door, is_repaired) in
-        [((3, 3), (20, 5), false), ((3, 3), (121, 5), false), ((150, 50), (20, 5), true)]
+        [((3, 3), (12, 5), false), ((3, 3), (113, 5), false), ((150, 50), (12, 5), true)]
     {
         let sources = [source.into()];
         let field = Fields::new(Arc::clone(&graph)).field(FieldQuery::new(&sources)).unwrap();
