@@ -79,12 +79,12 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Field<G> {
         self.graph.identity()
     }
 
-    /// The field of the same query after a change of the map, to the last bit the one that would be made anew.
-    /// The work follows the vertices whose distances change. `graph` is that of the map after the change. This
-    /// field stays as it is; the next repair takes its memory, if it is given up by then.
+    /// The field of the same query after a change of the map, to the last bit the one that would be made
+    /// anew. The work follows the vertices whose distances change. `graph` is that of the map after the
+    /// change. This field stays as it is; the next repair takes its memory, if it is given up by then.
     ///
     /// `None` where so much changes that a new field may take less work: [`Fields::again`] makes it. Finding
-    /// that out takes less than half as long.
+    /// that out mostly takes less than half as long.
     ///
     /// ```
     /// use std::sync::Arc;

@@ -65,8 +65,8 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     }
 
     /// The field of the same query after a change of its map, if no path in it comes near the changed cells:
-    /// the same distances. `None` otherwise; then it has to be made anew. `space` is that of the map after the
-    /// change.
+    /// the same distances. `None` otherwise; then it has to be made anew. `space` is that of the map after
+    /// the change.
     ///
     /// # Errors
     /// [`FieldError::Mismatch`] for a change of another map, or another space than the one after it;

@@ -3,11 +3,11 @@
 //! Of a field only the distances are stored, and they are integers: the least sums of the costs of moves from
 //! the sources. So whatever finds them finds the same ones. Two passes, each in the order of distances:
 //!
-//! 1. **Raising.** A vertex *is supported* if a legal move leads to it from a vertex whose distance is less by
-//!    the cost of the move, and is not raised. The vertices near the changed cells that are not supported are
-//!    raised, and then those that had no other support than raised ones. No move is shorter than a cell, so a
-//!    vertex is looked at after all that may support it. Along its supports a path leads from each vertex that
-//!    is not raised to a source: its old distance is not too short.
+//! 1. **Raising.** A vertex *is supported* if a legal move leads to it from a vertex whose distance is less
+//!    by the cost of the move, and is not raised. The vertices near the changed cells that are not supported
+//!    are raised, and then those that had no other support than raised ones. No move is shorter than a cell,
+//!    so a vertex is looked at after all that may support it. Along its supports a path leads from each vertex
+//!    that is not raised to a source: its old distance is not too short.
 //! 2. **Lowering.** Dijkstra's algorithm, from the neighbors of raised vertices, and along all moves near the
 //!    changed cells, where moves may have become legal. What it ends with is too short nowhere, and no move
 //!    makes it shorter: everywhere else the old distances were so already. These are the distances. ∎
@@ -30,10 +30,10 @@ use mediant_moves::{Cost, Vector};
 
 use super::{buckets::Buckets, gaps::past_a_gap};
 
-/// One in so many vertices of a new field may be looked at before it is made: on open ground, where a new field
-/// takes little, and elsewhere. Where they were cut off, of which a new field takes no notice, a third of that.
-/// Measured so that even then both together mostly take at most 1.5 times as long as the new field: see
-/// `docs/measurements/search.md`.
+/// One in so many vertices of a new field may be looked at before it is made: on open ground, where a new
+/// field takes little, and elsewhere. Where they were cut off, of which a new field takes no notice, a third
+/// of that. Measured so that even then both together mostly take at most 1.5 times as long as the new field:
+/// see `docs/measurements/search.md`.
 const SHARE: [u64; 2] = [32, 6];
 
 /// One in so many may be looked at before all that is found out.
@@ -164,8 +164,8 @@ impl<P: Placement> Repair<'_, P> {
         self.in_order(seeds, Self::lower_one)
     }
 
-    /// Visits vertices in the order of their distances, and with them what a visit queues. Returns false if it
-    /// gives up.
+    /// Visits vertices in the order of their distances, and with them what a visit queues. Returns false if
+    /// it gives up.
     fn in_order(
         &mut self,
         mut seeds: Vec<(Cost, Vertex)>,
