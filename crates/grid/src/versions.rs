@@ -54,6 +54,8 @@ struct Made {
 pub struct VersionEdit<W> {
     words: Box<[W]>,
     changed: Vec<u32>,
+    /// Whether any word may have changed, listed or not.
+    all: bool,
     /// The number of the version before.
     from: u64,
     line: Arc<Line<W>>,
@@ -69,14 +71,15 @@ impl<W: Clone + PartialEq> Versioned<W> {
         let line = self.line.get_or_init(Arc::default);
         let spare = line.lock().spare_like(self);
         let words = spare.unwrap_or_else(|| self.words.clone());
-        VersionEdit { words, changed: Vec::new(), from: self.number, line: Arc::clone(line) }
+        VersionEdit { words, changed: Vec::new(), all: false, from: self.number, line: Arc::clone(line) }
     }
 
     /// Begins an edit of a version that nobody else needs: in place.
     #[must_use]
     pub fn into_edit(mut self) -> VersionEdit<W> {
         let line = self.line.take().unwrap_or_default();
-        VersionEdit { words: std::mem::take(&mut self.words), changed: Vec::new(), from: self.number, line }
+        let words = std::mem::take(&mut self.words);
+        VersionEdit { words, changed: Vec::new(), all: false, from: self.number, line }
     }
 }
 
@@ -115,18 +118,25 @@ impl<W: Clone + PartialEq> VersionEdit<W> {
         &mut self.words[at]
     }
 
+    /// All words, to be changed in place: all count as changed.
+    #[must_use]
+    pub fn all_mut(&mut self) -> &mut [W] {
+        self.all = true;
+        &mut self.words
+    }
+
     /// Whether any word was changed.
     #[must_use]
     pub fn is_changed(&self) -> bool {
-        !self.changed.is_empty()
+        self.all || !self.changed.is_empty()
     }
 
     /// The next version.
     #[must_use]
     pub fn finish(self) -> Versioned<W> {
-        let Self { words, changed, from, line } = self;
+        let Self { words, changed, all, from, line } = self;
         // A quarter of the words is copied as quickly word by word as all are at once.
-        let changed = (changed.len() <= words.len() / 4).then(|| changed.into_boxed_slice());
+        let changed = (!all && changed.len() <= words.len() / 4).then(|| changed.into_boxed_slice());
         let number = line.lock().add(from, (changed, words.len()));
         Versioned { words, number, line: line.into() }
     }
@@ -288,10 +298,10 @@ mod tests {
             let most = [3, 3, 3, 80, 300][random(5)];
             for _ in 0..random(most) {
                 let (at, word) = (random(200), random(7) as u32);
-                if random(2) == 0 {
-                    edit.set(at, word);
-                } else {
-                    *edit.word_mut(at) = word;
+                match random(60) {
+                    0 => edit.all_mut()[at] = word,
+                    1..30 => edit.set(at, word),
+                    _ => *edit.word_mut(at) = word,
                 }
                 words[at] = word;
             }

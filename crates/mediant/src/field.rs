@@ -2,13 +2,17 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Centers, Corners, FreeSpace, GridGraph, Identity, Interrupt, Vertex};
+use mediant_grid::{
+    Centers, Change as GridChange, Corners, FreeSpace, GridGraph, Identity, Interrupt, MapId, Mismatch,
+    Vertex,
+};
 use mediant_moves::FiniteK;
 use mediant_search::{
     self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
 };
 
 use crate::{
+    change::Change,
     error::Error,
     never::NEVER,
     setup_error::SetupError,
@@ -147,13 +151,35 @@ impl Fields {
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
         };
-        let inner = inner.map_err(|error| match error {
-            FieldError::Query(error) => Error::from(error),
-            FieldError::Interrupted(interrupted) => interrupted.into(),
-            _ => QueryError::CostLimit.into(),
-        })?;
-        Ok(Field { inner })
+        Ok(Field { inner: inner.map_err(told)? })
     }
+}
+
+/// The error of a field as one of the library.
+fn told(error: FieldError) -> Error {
+    match error {
+        FieldError::Query(error) => error.into(),
+        FieldError::Mismatch(mismatch) => mismatch.into(),
+        FieldError::Interrupted(interrupted) => interrupted.into(),
+        _ => QueryError::CostLimit.into(),
+    }
+}
+
+/// A field over N(k) after a change of its map; anew where there is no change of this map to repair it by, or
+/// where that takes less work.
+fn repaired_over<P: Shared>(
+    field: &search::Field<Arc<GridGraph<P>>>,
+    layers: &Layers<P>,
+    (k, change): (FiniteK, Option<&GridChange>),
+    interrupt: &Interrupt,
+) -> Result<search::Field<Arc<GridGraph<P>>>, Error> {
+    if let Some(change) = change {
+        let repaired = field.repaired(Arc::clone(layers.graph(k)?), change, interrupt);
+        if let Some(repaired) = repaired.map_err(told)? {
+            return Ok(repaired);
+        }
+    }
+    fields_over(layers, k, interrupt)?.again(field, interrupt).map_err(told)
 }
 
 /// The same expression for a field of each kind.
@@ -168,6 +194,59 @@ macro_rules! of_each {
 }
 
 impl Field {
+    /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
+    /// last bit. Over N(k) the work follows the vertices whose distance changes. Where these are many it is
+    /// made anew, and so it is at any angle, unless no path in it comes near the change. This field stays as
+    /// it is; the next repair takes its memory, if it is given up by then.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let space = Map::from_fn(40, 30, |x, y| x == 20 && y > 0)?.space(Motion::centers(3))?;
+    /// let mut field = space.field([(0, 15)])?;
+    /// // A door in the wall.
+    /// let change = space.edit_cells([((20, 15), false)])?;
+    /// field = field.repair(&change)?;
+    /// assert_eq!(field.get((39, 15)), Some(39.0));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for a change of another map, of other rules or another k; [`Error::Query`] for the
+    /// first source that is now blocked or outside the map.
+    pub fn repair(&self, change: &Change) -> Result<Self, Error> {
+        self.repaired(change, &NEVER)
+    }
+
+    pub(crate) fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, Error> {
+        let (belongs_to, before, after) = (self.identity(), change.before().identity(), change.after());
+        let (prepared, other) = ("the field", "the space before the change");
+        let mismatch = Mismatch { prepared, belongs_to, other, other_belongs_to: before };
+        if belongs_to != before {
+            return Err(mismatch.into());
+        }
+        let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
+        let cells = is_of_the_same_size.then(|| change.of_grid());
+        let inner = match (&self.inner, after.placed(), after.motion().k.finite()) {
+            (Inner::Centers(field), Placed::Centers(layers), Some(k)) => {
+                Inner::Centers(repaired_over(field, layers, (k, cells), interrupt)?)
+            }
+            (Inner::Corners(field), Placed::Corners(layers), Some(k)) => {
+                Inner::Corners(repaired_over(field, layers, (k, cells), interrupt)?)
+            }
+            (Inner::AnyAngle(field), Placed::Corners(layers), None) => {
+                let kept = cells.map(|change| field.repaired(Arc::clone(&layers.free), change));
+                match kept.transpose().map_err(told)?.flatten() {
+                    Some(field) => Inner::AnyAngle(field),
+                    None => return after.fields_of(interrupt)?.make(field.query(), interrupt),
+                }
+            }
+            // Placement and k are those of the identity.
+            _ => return Err(mismatch.into()),
+        };
+        Ok(Self { inner })
+    }
+
     /// The distance of a vertex to the nearest source, in cells; `None` if no path leads to one, if it is
     /// beyond the limit, or if the vertex is blocked or outside the map. Over N(k) it is the number that
     /// [`Planner::distance`](crate::Planner::distance) finds.

@@ -13,7 +13,7 @@ use crate::{
     space::Space, table::Table,
 };
 
-/// A map, space or index whose work stops at a deadline or by a flag: each call that can take long is also a
+/// A map, space, index or field whose work stops at a deadline or by a flag: each call that can take long is also a
 /// call of this one, with the same result. A stopped call returns [`Error::Stopped`] soon, keeps no memory
 /// and leaves no thread at work. Results know nothing of the limits.
 ///
@@ -62,6 +62,24 @@ impl Index {
     #[must_use]
     pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
         Within { of: self, limits: limits.into() }
+    }
+}
+
+impl Field {
+    /// This field, for work that stops at a deadline or by a flag.
+    #[must_use]
+    pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
+        Within { of: self, limits: limits.into() }
+    }
+}
+
+impl Within<'_, Field> {
+    /// [`Field::repair`]; the field stays as it is.
+    ///
+    /// # Errors
+    /// As for [`Field::repair`], and [`Error::Stopped`].
+    pub fn repair(&self, change: &Change) -> Result<Field, Error> {
+        self.of.repaired(change, self.limits.interrupt())
     }
 }
 

@@ -14,3 +14,12 @@ pub(crate) fn filled<T: Copy>(value: T, count: usize, interrupt: &Interrupt) -> 
     }
     Ok(values)
 }
+
+/// Writes a value over all others.
+pub(crate) fn refill<T: Copy>(values: &mut [T], value: T, interrupt: &Interrupt) -> Result<(), Interrupted> {
+    for piece in values.chunks_mut(PIECE) {
+        interrupt.check("filling memory")?;
+        piece.fill(value);
+    }
+    Ok(())
+}

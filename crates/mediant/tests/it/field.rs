@@ -1,11 +1,11 @@
 //! Fields of a space are the distances of single paths; the same for maps of agents and widest paths.
 
 use mediant::{
-    Ends, Engine, ErrorCode, K, Map, Motion, Query, Setup, Space, Vertex,
+    Change, Ends, Engine, ErrorCode, Field, K, Map, Motion, Query, Rectangle, Setup, Space, Vertex,
     grid::{Fit, Outside},
 };
 use mediant_grid::Rules;
-use mediant_oracle::{Rng, random_grid};
+use mediant_oracle::{Rng, on_all_cores, random_change, random_grid, seeds, suite_grid};
 
 use super::{NEVER, OPEN};
 
@@ -191,5 +191,76 @@ fn every_engine_takes_an_agents_map() {
             let path = answer.expect("free ends").into_path().unwrap_or_else(|| panic!("{setup}"));
             assert_eq!(setup.space(&agent).expect("a space").check(&path), Ok(()), "{setup}");
         }
+    }
+}
+
+/// All that a field says of its vertices.
+fn all(field: &Field) -> (Vec<f64>, Vec<Option<Vertex>>) {
+    let next = field.iter().map(|(at, _)| field.next(at)).collect();
+    (field.lengths(), next)
+}
+
+#[test]
+fn fields_follow_chains_of_edits() {
+    on_all_cores(seeds(60), |seed| {
+        let rules = Rules::ALL[seed as usize % Rules::ALL.len()];
+        let ks = [K::N8, K::N4, K::ANY, K::N16];
+        let k = ks[seed as usize / Rules::ALL.len() % ks.len()];
+        let rules = if k == K::ANY { OPEN } else { rules };
+        let (mut space, free) = on_map(&suite_grid(seed).0.into(), k, rules);
+        if free.is_empty() {
+            return;
+        }
+        let rng = &mut Rng::new(seed);
+        let sources = [some(rng, &free), some(rng, &free)];
+        let limit = if rng.below(2) == 0 { f64::INFINITY } else { f64::from(rng.below(12)) };
+        let mut field = space.field_within(sources, limit).expect("free sources");
+        for step in 0..10 {
+            let edit = random_change(rng, space.map().grid());
+            let message = format!("seed {seed}, {}, from {sources:?}, edit {step}", space.motion());
+            let new = edit.after().as_ref().clone();
+            let new = Map::from(new).space(space.motion()).expect("the same motion");
+            let change = Change::between(&space, &new).expect("the same motion");
+            match (field.repair(&change), new.field_within(sources, limit)) {
+                (Ok(repaired), Ok(expected)) => {
+                    assert!(all(&repaired) == all(&expected), "{message}");
+                    assert_eq!(repaired.identity(), new.identity(), "{message}");
+                    (field, space) = (repaired, change.after().clone());
+                }
+                (repaired, expected) => {
+                    let [error, expected] =
+                        [repaired.err(), expected.err()].map(|it| it.map(|it| it.to_string()));
+                    assert_eq!(error, expected, "{message}");
+                }
+            }
+        }
+    });
+}
+
+#[test]
+fn fields_follow_edits_of_their_own_space_alone() {
+    let space = Map::from_fn(9, 7, |_, _| false).expect("a map").space(3).expect("a space");
+    let field = space.field([(0, 0)]).expect("a free source");
+    let wall = space.edit(Rectangle::new(4, 0, 1, 6), |_, _| true).expect("on the map");
+    let around = field.repair(&wall).expect("its own space");
+    assert!(all(&around) == all(&wall.after().field([(0, 0)]).expect("a free source")));
+    assert!(around.get((8, 0)) > field.get((8, 0)) && around.get((4, 0)).is_none());
+    for other in [K::N4, K::N16] {
+        let space = space.map().space(other).expect("a space");
+        let change = space.edit_cells([((4, 4), true)]).expect("on the map");
+        assert_eq!(field.repair(&change).map(|_| ()).map_err(|error| error.code()), Err(ErrorCode::Mismatch));
+    }
+    let change = space.edit_cells([((0, 0), true)]).expect("on the map");
+    assert_eq!(field.repair(&change).map(|_| ()).map_err(|error| error.code()), Err(ErrorCode::StartBlocked));
+    // A map of another size.
+    for (k, rules) in [(K::N8, NEVER), (K::ANY, OPEN)] {
+        let [small, large] = [5, 6].map(|side| {
+            let map = Map::from_fn(side, side, |_, _| false).expect("a map");
+            map.space(Motion::new(k, rules)).expect("a space")
+        });
+        let field = small.field([(0, 0)]).expect("a free source");
+        let change = Change::between(&small, &large).expect("the same motion");
+        let field = field.repair(&change).expect("the source is on the map");
+        assert!(all(&field) == all(&large.field([(0, 0)]).expect("a free source")));
     }
 }

@@ -121,6 +121,9 @@ fn fields_tables_and_widest_paths_stop() {
         if motion.k != K::ANY {
             check("distances", |limits| space.within(limits).distances(Engine::Dijkstra, (0, 0)));
         }
+        let field = space.field([(0, 0)]).expect("a free source");
+        let change = space.edit(Rectangle::new(20, 20, 30, 30), |x, y| x == y).expect("on the map");
+        check("a field's repair", |limits| field.within(limits).repair(&change));
         check("a path", |limits| space.within(limits).path((0, 0), (58, 58)));
         check("a widest path", |limits| space.within(limits).widest_path((0, 0), (58, 58), 0.2));
         let ends: Vec<(i32, i32)> = (0..9).map(|i| (7 * i, 7)).filter(|&at| space.is_free(at)).collect();

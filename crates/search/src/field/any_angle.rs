@@ -131,7 +131,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
                 .filter(|length| **length > farthest)
                 .for_each(|length| *length = f64::INFINITY);
         }
-        Ok(AnyAngleField::new(self.space.clone(), lengths, toward))
+        Ok(AnyAngleField::new(self.space.clone(), lengths, toward, query))
     }
 }
 

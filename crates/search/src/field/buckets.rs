@@ -29,6 +29,11 @@ impl Buckets {
         (self.current, self.queued) = (0, 0);
     }
 
+    /// Goes on at a distance. Nothing is queued.
+    pub(super) const fn begin(&mut self, cost: Cost) {
+        self.current = cost.to_bits() >> self.shift;
+    }
+
     const fn slot(&self, bucket: u64) -> usize {
         bucket as usize & (self.ring.len() - 1)
     }
@@ -51,6 +56,11 @@ impl Buckets {
         let at = self.ring.get_mut(slot)?.pop()?;
         self.queued -= 1;
         Some(Vertex::new((at & 0xFFFF) as i32, (at >> 16) as i32))
+    }
+
+    /// The least distance in the current bucket.
+    pub(super) const fn start(&self) -> Cost {
+        Cost::from_bits(self.current << self.shift)
     }
 
     /// The least distance beyond the current bucket.

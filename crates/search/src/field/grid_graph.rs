@@ -3,8 +3,8 @@
 use std::{ops::Deref, sync::Arc};
 
 use mediant_grid::{
-    Centers, GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Step, Vector, Vertex,
-    VertexId, uninterrupted,
+    Centers, GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Step, Vector, VersionEdit,
+    Vertex, VertexId, uninterrupted,
 };
 use mediant_moves::Cost;
 
@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     canonical::{PatternTable, Pruning, pattern_at, prunes, rank},
-    filled::filled,
+    filled::{filled, refill},
     limit::at_most,
     successors::ExpandedNode,
 };
@@ -147,8 +147,27 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
         interrupt: &Interrupt,
     ) -> Result<Field<G>, FieldError> {
         let sources = query.check(&self.graph)?;
-        let costs = filled(Cost::MAX, self.graph.vertex_count(), interrupt)?;
-        Ok(self.fill(query, &sources, costs, interrupt)?)
+        let mut costs = filled(Cost::MAX, self.graph.vertex_count(), interrupt)?;
+        self.fill(query, &sources, &mut costs, interrupt)?;
+        Ok(Field::new(self.graph.clone(), costs.into(), query))
+    }
+
+    /// The field of an old one's query on the map of these fields, as if it were made anew: where
+    /// [`Field::repaired`] says that this takes less work. The old one may be of another map; it stays as it
+    /// is.
+    ///
+    /// # Errors
+    /// [`FieldError::Mismatch`] for a field under other rules or of another k; those of
+    /// [`field`](Self::field), and [`FieldError::Interrupted`].
+    pub fn again(&mut self, old: &Field<G>, interrupt: &Interrupt) -> Result<Field<G>, FieldError> {
+        let on_any_map = Identity { map: None, ..old.identity() };
+        on_any_map.check("the field", ("the fields", self.identity()))?;
+        let query = old.query();
+        if old.costs().len() != self.graph.vertex_count() {
+            return self.field_interruptible(query, interrupt);
+        }
+        let sources = query.check(&self.graph)?;
+        self.fill_edit(query, &sources, old.versioned().edit(), interrupt)
     }
 
     /// The same in the memory of a field that is not needed any more.
@@ -157,23 +176,35 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
     /// As for [`field`](Self::field); the field is lost.
     pub fn field_in(&mut self, query: FieldQuery<'_>, old: Field<G>) -> Result<Field<G>, FieldError> {
         let sources = query.check(&self.graph)?;
-        let mut costs = old.into_costs();
-        costs.clear();
-        costs.resize(self.graph.vertex_count(), Cost::MAX);
-        Ok(self.fill(query, &sources, costs, &Interrupt::NEVER)?)
+        if old.costs().len() != self.graph.vertex_count() {
+            return self.field(query);
+        }
+        self.fill_edit(query, &sources, old.into_costs().into_edit(), &Interrupt::NEVER)
+    }
+
+    fn fill_edit(
+        &mut self,
+        query: FieldQuery<'_>,
+        sources: &[VertexId],
+        mut costs: VersionEdit<Cost>,
+        interrupt: &Interrupt,
+    ) -> Result<Field<G>, FieldError> {
+        refill(costs.all_mut(), Cost::MAX, interrupt)?;
+        self.fill(query, sources, costs.all_mut(), interrupt)?;
+        Ok(Field::new(self.graph.clone(), costs.finish(), query))
     }
 
     fn fill(
         &mut self,
         query: FieldQuery<'_>,
         sources: &[VertexId],
-        mut costs: Vec<Cost>,
+        costs: &mut [Cost],
         interrupt: &Interrupt,
-    ) -> Result<Field<G>, Interrupted> {
+    ) -> Result<(), Interrupted> {
         let graph: &GridGraph<P> = &self.graph;
         let Scratch { buckets, arrived } = &mut self.scratch;
         buckets.clear();
-        let mut limit = query.fixed_limit();
+        let limit = query.fixed_limit();
         for &id in sources {
             if let (Some(cost), Some(by)) = (costs.get_mut(id.index()), arrived.get_mut(id.index())) {
                 if *cost != Cost::ZERO {
@@ -189,20 +220,19 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
             table: self.pruning.as_ref().and_then(|pruning| pruning.table()),
             pruning: self.pruning.as_deref(),
             open: self.open.as_ref(),
-            costs: &mut costs,
+            costs: &mut *costs,
             arrived,
             buckets,
             limit,
             end: Cost::ZERO,
         };
         search.run(&targets, interrupt)?;
-        gaps::end_at_gaps(graph, sources, limit, &mut costs, interrupt)?;
+        gaps::end_at_gaps(graph, sources, limit, costs, interrupt)?;
         if !targets.is_empty() {
-            let farthest = targets.iter().filter_map(|&id| costs.get(id)).max();
-            limit = limit.min(farthest.copied().map_or(limit, at_most));
-            costs.iter_mut().filter(|cost| **cost > limit).for_each(|cost| *cost = Cost::MAX);
+            let reach = query.reach(graph, costs);
+            costs.iter_mut().filter(|cost| **cost > reach).for_each(|cost| *cost = Cost::MAX);
         }
-        Ok(Field::new(self.graph.clone(), costs))
+        Ok(())
     }
 }
 

@@ -1,10 +1,11 @@
 //! An any-angle field.
 
-use std::ops::Deref;
+use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Corners, FreeSpace, Identity, Vertex, VertexId};
+use mediant_grid::{Change, Corners, FreeSpace, Identity, Rectangle, Vertex, VertexId};
 use mediant_moves::K;
 
+use super::query::{Asked, FieldError, FieldQuery};
 use crate::{line_path::push_waypoint, path::Path};
 
 /// The length of a shortest any-angle path from every vertex to the nearest source, and the way there: what
@@ -18,6 +19,12 @@ use crate::{line_path::push_waypoint, path::Path};
 #[derive(Clone, Debug)]
 pub struct AnyAngleField<S> {
     space: S,
+    labels: Arc<Labels>,
+    asked: Arc<Asked>,
+}
+
+#[derive(Debug)]
+struct Labels {
     /// By vertex number; infinity stands for 'not in the field'.
     lengths: Vec<f64>,
     /// By vertex number: the vertex where the path next bends or ends; a source's own.
@@ -25,21 +32,28 @@ pub struct AnyAngleField<S> {
 }
 
 impl<S> AnyAngleField<S> {
-    pub(super) const fn new(space: S, lengths: Vec<f64>, toward: Vec<u32>) -> Self {
-        Self { space, lengths, toward }
+    pub(super) fn new(space: S, lengths: Vec<f64>, toward: Vec<u32>, query: FieldQuery<'_>) -> Self {
+        Self { space, labels: Arc::new(Labels { lengths, toward }), asked: Arc::new(query.into()) }
+    }
+
+    /// The query that it answers.
+    #[must_use]
+    pub fn query(&self) -> FieldQuery<'_> {
+        self.asked.query()
     }
 
     /// The distances by vertex number, row by row, in cells; infinity where a vertex is not in the field:
     /// where it is blocked, cannot be reached, or is farther than the limit.
     #[must_use]
     pub fn lengths(&self) -> &[f64] {
-        &self.lengths
+        &self.labels.lengths
     }
 
     /// The memory used, in bytes, without that of the free space.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.lengths.capacity() * size_of::<f64>() + self.toward.capacity() * size_of::<u32>()
+        let Labels { lengths, toward } = &*self.labels;
+        lengths.capacity() * size_of::<f64>() + toward.capacity() * size_of::<u32>()
     }
 }
 
@@ -48,6 +62,41 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     #[must_use]
     pub fn identity(&self) -> Identity {
         Identity { k: Some(K::Any), ..self.space.identity() }
+    }
+
+    /// The field of the same query after a change of its map, if no path in it comes near the changed cells:
+    /// the same distances. `None` otherwise; then it has to be made anew. `space` is that of the map after
+    /// the change.
+    ///
+    /// # Errors
+    /// [`FieldError::Mismatch`] for a change of another map, or another space than the one after it;
+    /// [`FieldError::Query`] for the first source that is now blocked.
+    pub fn repaired(&self, space: S, change: &Change) -> Result<Option<Self>, FieldError> {
+        let mine = self.identity();
+        let [before, after] =
+            [change.before(), change.after()].map(|map| Identity { map: Some(map.id()), ..mine });
+        mine.check("the field", ("the map before the change", before))?;
+        after.check("the field after the change", ("the free space", space.identity()))?;
+        self.query().check(&space)?;
+        let is_far = !change.cells().iter().any(|&cells| self.comes_near(cells));
+        Ok(is_far.then(|| Self { space, labels: Arc::clone(&self.labels), asked: Arc::clone(&self.asked) }))
+    }
+
+    /// Whether a path in the field, before a change of some cells or after it, may touch these cells.
+    ///
+    /// Take such a path, up to where it first touches one, and on it the point that is 1.5 cells before. (If
+    /// it is shorter, its source is near and in the field.) That point touches a free cell. The corners of
+    /// this cell are at most √2 further than the point, so within the limit, and at most three from the
+    /// changed cell. The path is legal on both maps; so those of the corners at which a path may end are in
+    /// the field. There is one, unless all four are closed gaps: then the path began at one of them.
+    fn comes_near(&self, cells: Rectangle) -> bool {
+        const NEAR: u32 = 3;
+        let span = |first: u32, count: u32, all: u32| {
+            first.saturating_sub(NEAR) as i32..(first + count + 1 + NEAR).min(all) as i32
+        };
+        let (columns, mut rows) =
+            (span(cells.x, cells.width, self.width()), span(cells.y, cells.height, self.height()));
+        rows.any(|y| columns.clone().any(|x| self.get(Vertex::new(x, y)).is_some()))
     }
 
     /// The number of vertices in a row.
@@ -66,12 +115,12 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     /// map.
     #[must_use]
     pub fn get(&self, at: Vertex) -> Option<f64> {
-        self.lengths.get(self.space.id(at)?.index()).copied().filter(|length| length.is_finite())
+        self.lengths().get(self.space.id(at)?.index()).copied().filter(|length| length.is_finite())
     }
 
     /// The vertices in the field, row by row, with their distances.
     pub fn iter(&self) -> impl Iterator<Item = (Vertex, f64)> {
-        let rows = self.lengths.chunks_exact(self.width() as usize).zip(0..);
+        let rows = self.lengths().chunks_exact(self.width() as usize).zip(0..);
         rows.flat_map(|(row, y)| {
             let known = row.iter().zip(0..).filter(|(length, _)| length.is_finite());
             known.map(move |(&length, x)| (Vertex::new(x, y), length))
@@ -83,7 +132,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     #[must_use]
     pub fn next(&self, at: Vertex) -> Option<Vertex> {
         self.get(at).filter(|&length| length > 0.0)?;
-        let next = self.toward.get(self.space.id(at)?.index())?;
+        let next = self.labels.toward.get(self.space.id(at)?.index())?;
         Some(self.space.vertex(VertexId(*next)))
     }
 

@@ -47,6 +47,12 @@
 //! is left out on no line that it crosses, since only what is farther by a margin is left out, and rounding
 //! is far below this margin. ∎
 //!
+//! # After a change of the map
+//!
+//! Over N(k) a field follows a change by work that follows the vertices whose distances change: module
+//! `repair`. At any angle what a corner labels reaches as far as it sees, and which corners see a changed
+//! cell is not stored. So there a field is kept where no path in it comes near the change, and else made anew.
+//!
 //! A query a vertex costs a search each; the field costs a few steps a vertex: see
 //! `docs/measurements/search.md`.
 
@@ -59,6 +65,7 @@ mod grid_graph;
 mod lengths;
 mod open_ground;
 mod query;
+mod repair;
 
 pub use any_angle::AnyAngleFields;
 pub use costs::Field;

@@ -1,10 +1,10 @@
 //! Queries of fields, and their errors.
 
-use mediant_grid::{FreeSpace, Interrupted, Placement, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Interrupted, Mismatch, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{
-    limit::greatest_cost,
+    limit::{at_most, greatest_cost},
     query::{Ends, QueryError},
 };
 
@@ -68,6 +68,33 @@ impl<'q> FieldQuery<'q> {
         // The greatest cost stands for 'no path'.
         greatest_cost(self.limit).min(Cost::from_bits(Cost::MAX.to_bits() - 1))
     }
+
+    /// The greatest distance in a field that holds these: the limit, or less where it ends at the farthest of
+    /// some vertices.
+    pub(super) fn reach<P: Placement>(&self, space: &FreeSpace<P>, costs: &[Cost]) -> Cost {
+        let until = self.until.iter().filter_map(|&at| costs.get(space.id(at)?.index()));
+        until.max().map_or(self.fixed_limit(), |&farthest| self.fixed_limit().min(at_most(farthest)))
+    }
+}
+
+/// A query that a field keeps, to be asked again after a change of the map.
+#[derive(Clone, Debug)]
+pub(super) struct Asked {
+    sources: Box<[Vertex]>,
+    limit: f64,
+    until: Box<[Vertex]>,
+}
+
+impl From<FieldQuery<'_>> for Asked {
+    fn from(query: FieldQuery<'_>) -> Self {
+        Self { sources: query.sources.into(), limit: query.limit, until: query.until.into() }
+    }
+}
+
+impl Asked {
+    pub(super) fn query(&self) -> FieldQuery<'_> {
+        FieldQuery { sources: &self.sources, limit: self.limit, until: &self.until }
+    }
 }
 
 /// The reason why a [`FieldQuery`] cannot be answered.
@@ -84,6 +111,9 @@ pub enum FieldError {
         /// The limit.
         limit: f64,
     },
+    /// A field, a change and a map that do not belong together.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
     /// It was stopped before it was done.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),

@@ -9,6 +9,7 @@ mod dead_ends;
 mod events;
 mod exact;
 mod exhaustive;
+mod field_changes;
 mod fields;
 mod follow;
 mod heuristics;
