@@ -13,9 +13,9 @@ use crate::{
     space::Space, table::Table,
 };
 
-/// A map, space, index or field whose work stops at a deadline or by a flag: each call that can take long is also a
-/// call of this one, with the same result. A stopped call returns [`Error::Stopped`] soon, keeps no memory
-/// and leaves no thread at work. Results know nothing of the limits.
+/// A map, space, index or field whose work stops at a deadline or by a flag: each call that can take long is
+/// also a call of this one, with the same result. A stopped call returns [`Error::Stopped`] soon, keeps no
+/// memory and leaves no thread at work. Results know nothing of the limits.
 ///
 /// The time, the deadline and the flag of the [`Limits`](crate::Limits) count; those on cost and expansions
 /// are of searches.

@@ -51,7 +51,8 @@
 //!
 //! Over N(k) a field follows a change by work that follows the vertices whose distances change: module
 //! `repair`. At any angle what a corner labels reaches as far as it sees, and which corners see a changed
-//! cell is not stored. So there a field is kept where no path in it comes near the change, and else made anew.
+//! cell is not stored. So there a field is kept where no path in it comes near the change, and else made
+//! anew.
 //!
 //! A query a vertex costs a search each; the field costs a few steps a vertex: see
 //! `docs/measurements/search.md`.

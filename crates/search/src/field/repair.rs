@@ -6,8 +6,8 @@
 //! 1. **Raising.** A vertex *is supported* if a legal move leads to it from a vertex whose distance is less
 //!    by the cost of the move, and is not raised. The vertices near the changed cells that are not supported
 //!    are raised, and then those that had no other support than raised ones. No move is shorter than a cell,
-//!    so a vertex is looked at after all that may support it. Along its supports a path leads from each vertex
-//!    that is not raised to a source: its old distance is not too short.
+//!    so a vertex is looked at after all that may support it. Along its supports a path leads from each
+//!    vertex that is not raised to a source: its old distance is not too short.
 //! 2. **Lowering.** Dijkstra's algorithm, from the neighbors of raised vertices, and along all moves near the
 //!    changed cells, where moves may have become legal. What it ends with is too short nowhere, and no move
 //!    makes it shorter: everywhere else the old distances were so already. These are the distances. ∎
@@ -59,7 +59,7 @@ pub(super) fn repaired<P: Placement>(
 ) -> Result<Option<Versioned<Cost>>, Interrupted> {
     interrupt.check("repairing the distances of a field")?;
     let longest = graph.steps().iter().map(|step| step.cost).max().unwrap_or(Cost::ZERO);
-    // What lies around a source as far as the field reaches, if that is less than the map.
+    // The ground around a source as far as the field reaches, if that is less than the map.
     let side = 2 * (reach.to_bits() >> Cost::FRACTION_BITS) + 3;
     let around = side.saturating_mul(side).saturating_mul(sources.len() as u64);
     let count = around.min(graph.vertex_count() as u64);
@@ -83,7 +83,7 @@ pub(super) fn repaired<P: Placement>(
         interrupt,
     };
     let is_done = repair.run(&near);
-    // What is given up is the next one's memory.
+    // The memory that is given up is that of the next one.
     let costs = repair.costs.finish();
     Ok(is_done?.then_some(costs))
 }

@@ -13,7 +13,7 @@ use mediant_search::{AnyAngleFields, CanonicalRule, Field, FieldError, FieldQuer
 
 type Graph<P> = Arc<GridGraph<P>>;
 
-/// What became of a field.
+/// The fate of a field.
 #[derive(Clone, Copy, Debug, Default)]
 struct Told {
     repaired: u64,
