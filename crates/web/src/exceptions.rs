@@ -32,8 +32,8 @@ fn exceptions_of(given: &JsValue) -> Result<Exceptions, JsValue> {
 #[wasm_bindgen]
 impl Planner {
     /// Answers a query for which some cells count otherwise than on the map: as `find` does on the map with
-    /// these cells edited, on an index that was prepared anew. Nothing that was prepared is used where a cell
-    /// differs: an engine that prepares much is replaced by one that prepares next to nothing.
+    /// these cells edited. The index is repaired for the query, by work that follows the cells; where it
+    /// would be prepared anew instead, an engine that prepares next to nothing answers.
     ///
     /// ```js
     /// planner.findExcept([3, 1], [0, 1], { freeEnds: true, blocked: [[1, 1]] });

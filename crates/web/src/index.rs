@@ -98,9 +98,9 @@ impl Index {
         Ok(Planner::new(self.inner.try_planner().map_err(raised)?))
     }
 
-    /// The index for a changed map of the same rules and k, which gives the same answers as one prepared
-    /// anew. Clusters and segments are repaired where the maps differ; what other engines prepare is prepared
-    /// anew. This index stays as it is.
+    /// The index for a changed map of the same rules and k, repaired by work that follows the difference of
+    /// the maps where the engine's index can be, else prepared anew: `origin` says which it was. This index
+    /// stays as it is.
     ///
     /// @throws MediantError `mismatch` for a space of other rules or another k.
     pub fn repair(

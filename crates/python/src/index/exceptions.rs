@@ -18,9 +18,9 @@ use crate::{
 impl Index {
     /// The whole answer to a query for which some cells count otherwise than on the map.
     ///
-    /// It is the answer of the grid with these cells edited, and of an index that was prepared anew. Nothing
-    /// that was prepared is used where a cell differs: an engine that prepares much is replaced by one that
-    /// prepares next to nothing. This index stays as it is.
+    /// It is the answer of the grid with these cells edited. The index is repaired for the query, by work
+    /// that follows the cells; where it would be prepared anew instead, an engine that prepares next to
+    /// nothing answers. This index stays as it is.
     ///
     /// Parameters
     /// ----------
