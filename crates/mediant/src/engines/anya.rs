@@ -88,15 +88,19 @@ impl EngineIndex for AnyaIndex {
         shared(Ok(Self { space, k: setup.k(), dead_ends })).map(Some)
     }
 
-    /// Paths cost what they cost with dead ends that are found anew.
+    /// Paths cost what they cost with dead ends that are found anew. The light build finds them anew: to repair
+    /// them takes as much code as the search.
     fn repaired(
         &self,
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
         let space = Arc::clone(&Corners::layers(change.after(), Engine::Anya)?.free);
-        let repair = |dead_ends: &Arc<DeadEnds>| dead_ends.repaired(&space, change.of_grid(), interrupt);
-        let dead_ends = self.dead_ends.as_ref().map(repair).transpose()?.map(Arc::new);
+        let dead_ends = match &self.dead_ends {
+            None => None,
+            Some(_) if !cfg!(feature = "all-engines") => return Ok(None),
+            Some(known) => Some(Arc::new(known.repaired(&space, change.of_grid(), interrupt)?)),
+        };
         shared(Ok(Self { space, k: self.k, dead_ends })).map(Some)
     }
 

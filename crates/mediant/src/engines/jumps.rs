@@ -216,6 +216,8 @@ impl<P: Placement> EngineFinder<P> for BlockFinder {
         self.memory_bytes()
     }
 
+    /// The light build leaves this out: its code is as large as that of a search.
+    #[cfg(feature = "all-engines")]
     fn repaired(
         &self,
         (graph, pruning): (&GridGraph<P>, &Pruning<P>),
