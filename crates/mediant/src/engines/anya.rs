@@ -88,8 +88,8 @@ impl EngineIndex for AnyaIndex {
         shared(Ok(Self { space, k: setup.k(), dead_ends })).map(Some)
     }
 
-    /// Paths cost what they cost with dead ends that are found anew. The light build finds them anew: to repair
-    /// them takes as much code as the search.
+    /// Paths cost what they cost with dead ends that are found anew. The light build finds them anew: to
+    /// repair them takes as much code as the search.
     fn repaired(
         &self,
         change: &Change,
