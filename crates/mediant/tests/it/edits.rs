@@ -76,7 +76,7 @@ fn every_index_follows_a_chain_of_edits() {
             let mut space = setup.space(&map).expect("it is searched");
             let mut index = setup.prepare(&space).expect("a small map");
             let (first, mut planner) = ((space.clone(), index.clone()), index.planner());
-            for step in 0..12 {
+            for step in 0..20 {
                 let change = random_change(&mut rng, space.map().grid());
                 let message = format!("seed {seed}, {setup}, edit {step}: {:?}", change.cells());
                 let change = space.edit_cells(cells(&change)).expect("they are on the map");
@@ -116,7 +116,7 @@ fn paths_on_edited_maps_are_those_of_new_maps() {
     on_all_cores(seeds(60), |seed| {
         let mut rng = Rng::new(seed);
         let mut map = Map::from(suite_grid(seed).0);
-        for step in 0..12 {
+        for step in 0..20 {
             let change = random_change(&mut rng, map.grid());
             map = map.edit_cells(cells(&change)).expect("they are on the map");
             // Now and then there are several edits between two paths.
