@@ -36,7 +36,7 @@ pub enum Connectivity {
 }
 
 impl Connectivity {
-    /// How many columns apart runs of neighboring rows may be that meet.
+    /// The most columns between two runs of neighboring rows that meet.
     const fn reach(self) -> u32 {
         match self {
             Self::Four => 0,

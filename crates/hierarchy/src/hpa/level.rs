@@ -67,8 +67,8 @@ type ClusterBlock = [Cluster; CLUSTERS];
 const NODES: usize = 4 * Clustering::MAX_SIDE as usize;
 const CLUSTERS: usize = 32;
 
-/// How a level cuts the map into clusters of `side` × `side` cells; those at the right and lower edge may be
-/// smaller.
+/// The cut of a map by a level into clusters of `side` × `side` cells; those at the right and lower edge may
+/// be smaller.
 ///
 /// Each cluster has `stride` node numbers, as many as it can need, so that no change elsewhere renumbers its
 /// nodes. They are in one block of nodes.

@@ -121,7 +121,7 @@ struct Repair<'r, P: Placement> {
     sources: &'r [Vertex],
     /// The nearest free vertex that is raised.
     nearest: Option<(Cost, Vertex)>,
-    /// How many vertices may be looked at yet.
+    /// The number of vertices that may be looked at yet.
     looks: u64,
     /// The vertices of a new field at most; 0 once it is known how many may be looked at.
     count: u64,

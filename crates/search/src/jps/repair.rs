@@ -51,10 +51,10 @@ pub(super) struct Repair<'r, P: Placement> {
     /// The planes before the change.
     axial: &'r AxialStops,
     diagonals: &'r DiagonalStops,
-    /// How far dead ends reach; 0 if there are none.
+    /// The reach of dead ends; 0 if there are none.
     reach: u32,
     map: Zone,
-    /// How much it may still do.
+    /// The work that it may still do.
     left: u64,
 }
 
@@ -65,7 +65,7 @@ const OF_DEAD_END: u64 = 8;
 /// Likewise that for six vertices of new planes without dead ends, and with them.
 const NEW: u64 = 2;
 const NEW_WITH_DEAD_ENDS: u64 = 4;
-/// How far from a zone new dead ends are looked for.
+/// The distance from a zone up to which new dead ends are looked for.
 const NEAR: i32 = 4;
 
 impl<'r, P: Placement> Repair<'r, P> {
@@ -186,8 +186,8 @@ impl<'r, P: Placement> Repair<'r, P> {
         Ok(changed)
     }
 
-    /// How jumps find a vertex, before and after the change. Without dead ends these are jump points like
-    /// others.
+    /// The findings of a vertex by jumps, before and after the change. Without dead ends these are jump
+    /// points like others.
     fn findings(&self, axial: &AxialStops, at: Vertex, quarter: usize, with_dead_ends: bool) -> [Finding; 2] {
         self.axial.findings(axial, at, quarter).map(|end| match end {
             Finding::DeadEnd if !with_dead_ends => Finding::JumpPoint,

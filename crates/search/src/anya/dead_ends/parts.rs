@@ -47,7 +47,7 @@ pub(super) struct Part {
     pub(super) outer: CellRun,
 }
 
-/// How a part hangs on its parent.
+/// The place where a part hangs on its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Link {
     /// By a bridge.
