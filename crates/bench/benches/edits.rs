@@ -21,9 +21,9 @@ fn rooms(rng: &mut Rng, side: u32) -> Grid {
         .collect();
     let is_wall = |x: u32, y: u32| {
         let [has_left, left, has_top, top] = doors[(y / pitch * across + x / pitch) as usize];
-        let is_door = x % pitch == 0 && has_left < 8 && y % pitch == left
-            || y % pitch == 0 && has_top < 8 && x % pitch == top;
-        (x % pitch == 0 || y % pitch == 0) && !is_door
+        let [(is_left, x), (is_top, y)] = [x, y].map(|at| (at.is_multiple_of(pitch), at % pitch));
+        let is_door = is_left && has_left < 8 && y == left || is_top && has_top < 8 && x == top;
+        (is_left || is_top) && !is_door
     };
     Grid::from_fn(side, side, is_wall).unwrap()
 }
