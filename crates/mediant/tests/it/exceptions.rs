@@ -1,11 +1,13 @@
 //! Cells that count otherwise for one query, and discs among obstacles that change: as maps that were edited.
 
+use std::sync::Arc;
+
 use mediant::{
-    Disc, Ends, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Planner, Query,
+    Change, Disc, Ends, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Planner, Query,
     Rectangle, Rules, Setup, Vertex,
 };
 use mediant_grid::Grid;
-use mediant_oracle::{Rng, on_all_cores, random_grid, random_vertex, seeds};
+use mediant_oracle::{Rng, on_all_cores, random_change, random_grid, random_vertex, seeds};
 
 use super::k;
 
@@ -74,8 +76,7 @@ fn check_one(
 /// Compares on one map; the number of queries that were answered by a path, and by another engine.
 fn check(seed: u64) -> [usize; 2] {
     let rng = &mut Rng::new(seed);
-    let (grid, _) = random_grid(seed);
-    let map = Map::from(grid.clone());
+    let map = Map::from(random_grid(seed).0);
     let rules = Rules::ALL[seed as usize % Rules::ALL.len()];
     let k = match (rules.placement(), rng.below(3)) {
         (PlacementKind::Corner, 0) => K::ANY,
@@ -85,9 +86,17 @@ fn check(seed: u64) -> [usize; 2] {
     let mut counts = [0, 0];
     for setup in Setup::all(Motion::new(k, rules)) {
         let mut planner = setup.planner(&map).expect("a planner");
-        // A query leaves its planner for the next.
-        for _ in 0..3 {
+        let mut map = map.clone();
+        // A query leaves its planner for the next, also if this one follows to another map in between.
+        for round in 0..4 {
+            let grid = Arc::clone(map.grid());
             check_one(&mut planner, setup, (&map, &grid), (rng, seed), &mut counts);
+            if round % 2 == 1 {
+                map = Map::from(Arc::clone(random_change(rng, &grid).after()));
+                let change = Change::to(planner.index().space(), &map);
+                let index = planner.index().repair(&change).expect("its map");
+                planner.follow(&index).expect("the same setup");
+            }
         }
     }
     counts
