@@ -289,6 +289,14 @@ impl Within<'_, Index> {
         self.of.repaired(change, self.limits.interrupt())
     }
 
+    /// [`Index::finish`]; the index stays as it is.
+    ///
+    /// # Errors
+    /// As for [`Index::finish`], and [`Error::Stopped`].
+    pub fn finish(&self) -> Result<Index, Error> {
+        self.of.finished(self.limits.interrupt())
+    }
+
     /// [`Index::for_k`].
     ///
     /// # Errors

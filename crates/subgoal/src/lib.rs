@@ -79,8 +79,8 @@
 //!
 //! # What this crate does not do
 //!
-//! It reads and writes no files: a graph is converted to bytes and back. It does not repair a graph when the
-//! map changes: a planner refuses the graph of another map. It uses one thread, unless the feature `parallel`
+//! It reads and writes no files: a graph is converted to bytes and back. It does not repair graphs and labels
+//! when the map changes; but those of an [`EarlierMap`] answer most queries still, exactly. It uses one thread, unless the feature `parallel`
 //! is on; then it finds edges and contracts subgoals in rayon's current pool. The graph is the same.
 
 mod arc;
@@ -95,6 +95,7 @@ mod contract;
 mod corners;
 mod costs;
 mod direct_reachability;
+mod earlier;
 mod edge_path;
 mod error;
 mod graph;
@@ -112,6 +113,7 @@ mod subgoals;
 mod theta;
 mod worth;
 
+pub use earlier::{EarlierMap, EarlierSearch};
 pub use error::SubgoalError;
 pub use graph::SubgoalGraph;
 pub use hierarchy::Hierarchy;

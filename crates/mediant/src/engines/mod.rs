@@ -9,6 +9,7 @@
 mod anya;
 mod canonical;
 mod clusters;
+mod earlier;
 mod grid_search;
 mod jps_plus;
 mod jumps;
@@ -113,6 +114,16 @@ pub(crate) trait EngineIndex: Send + Sync {
         _interrupt: &Interrupt,
     ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
         Ok(None)
+    }
+
+    /// Whether nothing is left to make after a repair.
+    fn is_finished(&self) -> bool {
+        true
+    }
+
+    /// The engine that answered the last query of a search in place of the one that was asked for.
+    fn answered_by(&self, _search: &Boxed) -> Option<Engine> {
+        self.substitute()
     }
 
     /// The engine with the options by which the index could be prepared again; `None` if no option decides

@@ -6,11 +6,16 @@ use std::sync::Arc;
 use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
 use mediant_search::{Ends, parts::count_work};
 use mediant_subgoal::{
-    HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
+    EarlierMap, HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
 };
 
-use super::{Boxed, EngineIndex, Source, boxed, check_levels, following, prepare, shared, with_options};
+use super::{
+    Boxed, EngineIndex, Source, boxed, check_levels,
+    earlier::{EarlierIndex, other_after},
+    following, prepare, shared, with_options,
+};
 use crate::{
+    change::Change,
     choice::Choice,
     configured::ConfiguredEngine,
     engine::Engine,
@@ -75,6 +80,8 @@ enum Kept<P: PlacementOfSpace> {
     Graph(Arc<FreeSpace<P>>, Arc<SubgoalGraph<P>>),
     /// Nothing: the substitute searches.
     Nothing(Identity, Arc<dyn EngineIndex>),
+    /// The labels or the graph of an earlier map.
+    Earlier(EarlierIndex<P>),
 }
 
 impl<P: PlacementOfSpace> SubgoalIndex<P> {
@@ -152,6 +159,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             }
             Kept::Graph(space, graph) => Ok(boxed(SubgoalAStar::new(Arc::clone(space), Arc::clone(graph))?)),
             Kept::Nothing(_, substitute) => substitute.search(),
+            Kept::Earlier(earlier) => earlier.search(),
         }
     }
 
@@ -166,6 +174,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
                 search.follow(Arc::clone(space), Arc::clone(graph))
             }),
             Kept::Nothing(_, substitute) => substitute.follow(search),
+            Kept::Earlier(earlier) => earlier.follow(search),
         }
     }
 
@@ -174,6 +183,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(Labeled { labels, .. }) => HubLabelSearch::scratch_bytes(labels),
             Kept::Graph(_, graph) => SubgoalAStar::scratch_bytes(graph),
             Kept::Nothing(_, substitute) => substitute.scratch_bytes(),
+            Kept::Earlier(earlier) => earlier.scratch_bytes(),
         }
     }
 
@@ -187,15 +197,60 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(Labeled { labels, .. }) => labels.memory_bytes(),
             Kept::Graph(_, graph) => graph.memory_bytes(),
             Kept::Nothing(_, substitute) => substitute.memory_bytes(),
+            Kept::Earlier(earlier) => earlier.memory_bytes(),
         }
     }
 
     fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
-        Ok(Some(match &self.kept {
-            Kept::Labels(Labeled { labels, .. }) => labels.to_bytes_interruptible(interrupt)?,
-            Kept::Graph(_, graph) => graph.to_bytes_interruptible(interrupt)?,
-            Kept::Nothing(identity, _) => PreparedSubgoals::<P>::Nothing(*identity).to_bytes(),
-        }))
+        Ok(match &self.kept {
+            Kept::Labels(Labeled { labels, .. }) => Some(labels.to_bytes_interruptible(interrupt)?),
+            Kept::Graph(_, graph) => Some(graph.to_bytes_interruptible(interrupt)?),
+            Kept::Nothing(identity, _) => Some(PreparedSubgoals::<P>::Nothing(*identity).to_bytes()),
+            // It is finished first.
+            Kept::Earlier(_) => None,
+        })
+    }
+
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let other = Setup::new(substitute_for(self.motion), self.motion);
+        let anew = |space: &Space| prepare(other, space, Source { interrupt, ..Source::new(&|_| {}) });
+        let now = &P::layers(change.after(), Engine::Subgoal)?.free;
+        let (levels, map) = match &self.kept {
+            Kept::Nothing(identity, substitute) => {
+                let identity = Identity { map: change.after().identity().map, ..*identity };
+                let kept = Kept::Nothing(identity, other_after(substitute, change, anew, interrupt)?);
+                return shared(Ok(Self { kept, ..*self })).map(Some);
+            }
+            Kept::Earlier(earlier) => {
+                let earlier = earlier.repaired(change, anew, interrupt)?;
+                return shared(Ok(Self { kept: Kept::of(earlier, now), ..*self })).map(Some);
+            }
+            Kept::Labels(Labeled { space, labels }) => {
+                (Levels::Labels, EarlierMap::of_labels(space, labels, now, change.of_grid()))
+            }
+            Kept::Graph(space, graph) => {
+                (graph.hierarchy().into(), EarlierMap::of_graph(space, graph, now, change.of_grid()))
+            }
+        };
+        let earlier = EarlierIndex { map: map.map(Arc::new), levels, other: anew(change.after())? };
+        shared(Ok(Self { kept: Kept::Earlier(earlier), ..*self })).map(Some)
+    }
+
+    fn is_finished(&self) -> bool {
+        !matches!(self.kept, Kept::Earlier(_))
+    }
+
+    fn answered_by(&self, search: &Boxed) -> Option<Engine> {
+        let is_by_other = match &self.kept {
+            Kept::Labels(_) | Kept::Graph(..) => false,
+            Kept::Nothing(..) => true,
+            Kept::Earlier(earlier) => earlier.is_by_other(search),
+        };
+        is_by_other.then(|| substitute_for(self.motion))
     }
 
     /// Labels at corners share what does not depend on k.
@@ -231,27 +286,45 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(_) => Some(Levels::Labels),
             Kept::Graph(_, graph) => Some(graph.hierarchy().into()),
             Kept::Nothing(..) => None,
+            Kept::Earlier(earlier) => Some(earlier.levels),
         }
     }
 
     fn labels(&self) -> Option<&dyn HasLabels> {
         match &self.kept {
             Kept::Labels(labeled) => Some(labeled),
-            Kept::Graph(..) | Kept::Nothing(..) => None,
+            Kept::Graph(..) | Kept::Nothing(..) | Kept::Earlier(_) => None,
         }
     }
 
     fn substitute(&self) -> Option<Engine> {
         match &self.kept {
-            Kept::Labels(_) | Kept::Graph(..) => None,
-            Kept::Nothing(..) => Some(substitute_for(self.motion)),
+            Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(EarlierIndex { map: Some(_), .. }) => None,
+            Kept::Nothing(..) | Kept::Earlier(_) => Some(substitute_for(self.motion)),
         }
     }
 
     fn is_for_one_path(&self) -> bool {
         match &self.kept {
-            Kept::Labels(_) | Kept::Graph(..) => false,
+            Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(_) => false,
             Kept::Nothing(_, substitute) => substitute.is_for_one_path(),
+        }
+    }
+}
+
+impl<P: PlacementOfSpace> Kept<P> {
+    /// What was prepared on an earlier map; that of this one, if it is equal to it.
+    fn of(earlier: EarlierIndex<P>, now: &Arc<FreeSpace<P>>) -> Self {
+        match earlier.map.as_ref().filter(|map| map.is_present()) {
+            None => Self::Earlier(earlier),
+            Some(map) => {
+                let space = Arc::clone(now);
+                match (map.labels(), map.graph()) {
+                    (Some(labels), _) => Self::Labels(Labeled { space, labels: Arc::clone(labels) }),
+                    (None, Some(graph)) => Self::Graph(space, Arc::clone(graph)),
+                    (None, None) => Self::Earlier(earlier),
+                }
+            }
         }
     }
 }

@@ -15,10 +15,12 @@ use crate::{
 };
 
 impl Index {
-    /// Writes the index to a file, for [`Space::load`]. An older file there is replaced as a whole.
+    /// Writes the index to a file, for [`Space::load`]. An older file there is replaced as a whole. One that
+    /// is not finished is [finished](Self::finish) first.
     ///
     /// # Errors
-    /// [`Error::Setup`] for an engine whose index is not saved, [`Error::Write`] if the operating system
+    /// [`Error::Setup`] for an engine whose index is not saved, those of [`finish`](Self::finish),
+    /// [`Error::Write`] if the operating system
     /// refuses.
     pub fn save(&self, path: impl AsRef<FilePath>) -> Result<(), Error> {
         self.write(path.as_ref(), &NEVER)
@@ -28,10 +30,11 @@ impl Index {
         Ok(self.file(interrupt)?.write_interruptible(path, interrupt)?)
     }
 
-    /// The index as bytes, those of its file, for [`Space::index_from_bytes`].
+    /// The index as bytes, those of its file, for [`Space::index_from_bytes`]. One that is not finished is
+    /// [finished](Self::finish) first.
     ///
     /// # Errors
-    /// [`Error::Setup`] for an engine whose index is not saved.
+    /// [`Error::Setup`] for an engine whose index is not saved, and those of [`finish`](Self::finish).
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
         self.bytes(&NEVER)
     }
@@ -41,6 +44,9 @@ impl Index {
     }
 
     fn file(&self, interrupt: &Interrupt) -> Result<IndexFile, Error> {
+        if !self.is_finished() {
+            return self.finished(interrupt)?.file(interrupt);
+        }
         let engine = self.setup.engine.kind();
         let payload = self.prepared.to_bytes(interrupt)?;
         let payload = payload.ok_or_else(|| SetupError::without_index(engine))?;

@@ -247,7 +247,8 @@ impl Index {
 
     /// The engine of its planners. It is that of the [`setup`](Self::setup), but for subgoals of a map on
     /// which they would be slow, as on noise: nothing is kept of them there, and the best engine that
-    /// prepares little searches. Its paths are as good: the setup's guarantee holds.
+    /// prepares little searches. Its paths are as good: the setup's guarantee holds. Where an index is not
+    /// [finished](Self::is_finished), each query may have [another engine](crate::Planner::searched_by).
     #[must_use]
     pub fn searched_by(&self) -> Engine {
         self.prepared.substitute().unwrap_or_else(|| self.setup.engine.kind())
@@ -278,6 +279,11 @@ impl Index {
     #[must_use]
     pub fn scratch_bytes(&self) -> u64 {
         self.prepared.scratch_bytes() as u64
+    }
+
+    /// The engine that answered the last query of a search.
+    pub(crate) fn answered_by(&self, search: &Boxed) -> Engine {
+        self.prepared.answered_by(search).unwrap_or_else(|| self.setup.engine.kind())
     }
 
     /// A search for a planner.

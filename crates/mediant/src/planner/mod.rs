@@ -12,6 +12,7 @@ use mediant_search::{
 
 use crate::{
     configured::ConfiguredEngine,
+    engine::Engine,
     erased::{Dynamic, Erased},
     error::Error,
     exceptions::Excepted,
@@ -282,6 +283,15 @@ impl Planner {
     #[must_use]
     pub fn bound(&self) -> Option<f64> {
         self.guarantee.bound(self.index.setup().rules())
+    }
+
+    /// The engine that answered the last query. It is that of its index
+    /// ([`Index::searched_by`](crate::Index::searched_by)), unless this is not
+    /// [finished](crate::Index::is_finished): then either the labels of an earlier map have proven the answer,
+    /// and it is that of the setup, or another engine has searched.
+    #[must_use]
+    pub fn searched_by(&self) -> Engine {
+        self.index.answered_by(&self.search)
     }
 
     /// The index that it searches.

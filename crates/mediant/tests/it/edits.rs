@@ -86,6 +86,10 @@ fn every_index_follows_a_chain_of_edits() {
                     setup.prepare(&setup.space(space.map()).expect("it is searched")).expect("a small map");
                 planner.follow(&index).unwrap_or_else(|error| panic!("{message}: {error}"));
                 check_same(&mut planner, &new, &queries(&mut rng, &space), &message);
+                if rng.below(6) == 0 {
+                    index = index.finish().unwrap_or_else(|error| panic!("{message}: {error}"));
+                    assert!(index.is_finished(), "{message}");
+                }
             }
             // The first version is held all the time, and still answers for its own map.
             let new = setup.prepare(&first.0).expect("a small map");
@@ -147,14 +151,15 @@ fn is_repaired(setup: Setup) -> bool {
     use Engine as E;
     match setup.engine.kind() {
         E::AStar | E::Dijkstra | E::Wavefront | E::Theta | E::LazyTheta => true,
-        E::JpsBlock | E::Anya | E::Hpa | E::Chpa => true,
+        E::JpsBlock | E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
         E::Jps | E::Canonical => setup.k() <= K::N8 || setup.engine.variant() == Some(Variant::Paper),
         _ => false,
     }
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
-/// large, and says how it came about. That of Anya may leave out less, but paths cost the same.
+/// large, and says how it came about. That of Anya may leave out less, and subgoals are those of the map
+/// before, but paths cost the same.
 #[test]
 fn repaired_indexes_are_as_good_as_new_ones() {
     let mut rng = Rng::new(16);
@@ -183,7 +188,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let (setup, is_same) = (index.setup(), index.identity() == space.identity());
                 *index = index.repair(&change).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let anew = setup.prepare(&space).expect("as before");
-                let is_anya = setup.engine.kind() == Engine::Anya;
+                let by_cost = matches!(setup.engine.kind(), Engine::Anya | Engine::Subgoal);
                 let is_repaired = is_repaired(setup);
                 let origin = match (is_same, is_repaired) {
                     (true, _) => Origin::Unchanged,
@@ -194,16 +199,18 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));
                 assert_eq!(index.identity(), space.identity());
-                assert!(is_anya || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
+                assert!(by_cost || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
                 assert_eq!(index.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
                 let (mut repaired, mut new) = (index.planner(), anew.planner());
                 for _ in 0..8 {
                     let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
                     let query = Ends::new(end(), end());
-                    if is_anya {
+                    if by_cost {
                         let [found, known] = [&mut repaired, &mut new]
                             .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
                         let is_same = match (&found, &known) {
+                            // Of equally short paths one may become shorter when it is smoothed.
+                            (Ok(_), Ok(_)) if setup.smoothing.is_some() => true,
                             (Ok(found), Ok(known)) => (found - known).abs() < 1e-9 * (1.0 + known.abs()),
                             (found, known) => found == known,
                         };

@@ -41,6 +41,7 @@ mod many;
 mod merge;
 mod pack;
 mod planner;
+mod reader;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -52,6 +53,7 @@ use mediant_moves::K;
 use mediant_search::parts::{HasFreeSpace, Metric};
 
 use self::pack::Packed;
+pub(crate) use self::reader::LabelReader;
 pub use self::{many::Goals, planner::HubLabelSearch};
 use crate::{
     placement::{EdgeCriterion, SubgoalPlacement},
@@ -102,6 +104,11 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     #[must_use]
     pub const fn k(&self) -> K {
         self.k
+    }
+
+    /// The metric of N(k).
+    pub(crate) const fn metric(&self) -> Metric {
+        self.metric
     }
 
     /// The identity: map and rules of motion of its free space, and its k.

@@ -111,6 +111,16 @@ where
         Ok(self.meeting(query)?.map(|meeting| meeting.cost))
     }
 
+    /// A shortest path and its cost; `None` if there is none.
+    pub(crate) fn solve_with_cost(&mut self, query: Ends) -> Option<(Path, Cost)> {
+        self.begin(query, &mut ()).ok()?;
+        let cost = match self.answer?.1 {
+            AnswerForm::Direct => self.labels.metric.distance(query.start.to(query.goal)),
+            AnswerForm::Over(meeting) => meeting.cost,
+        };
+        Some((self.path_to(query.goal)?, cost))
+    }
+
     /// Writes the cost of a shortest path from a start to each goal, `None` where there is no path. This
     /// takes far less than a query for each.
     ///

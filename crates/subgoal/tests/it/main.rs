@@ -2,6 +2,7 @@
 
 mod common;
 mod contraction;
+mod earlier;
 mod exact;
 mod follow;
 mod identity;
