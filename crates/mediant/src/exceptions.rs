@@ -106,9 +106,9 @@ impl Excepted {
         change: &Change,
         limits: &Limits,
     ) -> Result<[Index; 2], Error> {
-        let base = known.unwrap_or(own);
+        let base = known.unwrap_or(own).ready_for_changes(limits.interrupt())?;
         if let Some(repaired) = base.repaired_if_it_can_be(change, limits.interrupt())? {
-            return Ok([repaired, base.clone()]);
+            return Ok([repaired, base]);
         }
         let smoothing = own.setup().smoothing;
         let engine = Choice::for_one_path(own.space().motion());
@@ -166,8 +166,8 @@ impl Planner {
             Some(planner) => planner,
             None => index.try_planner()?,
         };
-        let searched_by = index.searched_by();
         let answer = planner.find(query);
+        let searched_by = planner.searched_by();
         // So that nothing holds the map of this query.
         planner.follow(&base)?;
         self.excepted = Some(Box::new(Excepted { base, planner }));

@@ -116,6 +116,16 @@ pub(crate) trait EngineIndex: Send + Sync {
         Ok(None)
     }
 
+    /// The same index in the form that it has after a repair, so that searches follow from one to the other;
+    /// `None` if that is this form.
+    fn ready_for_changes(
+        &self,
+        _space: &Space,
+        _interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        Ok(None)
+    }
+
     /// Whether nothing is left to make after a repair.
     fn is_finished(&self) -> bool {
         true

@@ -1,9 +1,9 @@
 //! Subgoals: hub labels where they fit in memory, else a subgoal graph, and another engine where both would
 //! be slow.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
+use mediant_grid::{Change as GridChange, FreeSpace, Identity, Interrupt, Interrupted};
 use mediant_search::{Ends, parts::count_work};
 use mediant_subgoal::{
     EarlierMap, HubLabelSearch, HubLabels, PreparedSubgoals, SubgoalAStar, SubgoalGraph, SubgoalPlacement,
@@ -72,6 +72,8 @@ pub(super) struct SubgoalIndex<P: PlacementOfSpace> {
     own: SubgoalOptions,
     motion: Motion,
     kept: Kept<P>,
+    /// The engine that searches after edits, on this map: made when it is first repaired.
+    other: OnceLock<Arc<dyn EngineIndex>>,
 }
 
 #[derive(Clone)]
@@ -118,7 +120,7 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
     /// Checks that it has the levels that the options name, and that labels take no more memory than they
     /// may.
     fn of(own: SubgoalOptions, motion: Motion, kept: Kept<P>) -> Result<Self, Error> {
-        let index = Self { own, motion, kept };
+        let index = Self { own, motion, kept, other: OnceLock::new() };
         if let Some((most, (found, _))) = own.memory.zip(index.memory_of_labels())
             && found > most
         {
@@ -126,6 +128,35 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
         }
         check_levels(own.levels, index.levels())?;
         Ok(index)
+    }
+
+    /// The same options on another map.
+    fn with(&self, kept: Kept<P>) -> Self {
+        Self { own: self.own, motion: self.motion, kept, other: OnceLock::new() }
+    }
+
+    /// Its labels or its graph as those of an earlier map, from which the space's does not differ yet; `None`
+    /// if it has neither.
+    fn earlier(&self, space: &Space, interrupt: &Interrupt) -> Result<Option<EarlierIndex<P>>, Error> {
+        let none = GridChange::new(Arc::clone(space.map().grid()));
+        let (levels, map) = match &self.kept {
+            Kept::Labels(Labeled { space, labels }) => {
+                (Levels::Labels, EarlierMap::of_labels(space, labels, space, &none))
+            }
+            Kept::Graph(space, graph) => {
+                (graph.hierarchy().into(), EarlierMap::of_graph(space, graph, space, &none))
+            }
+            Kept::Earlier(earlier) => return Ok(Some(earlier.clone())),
+            Kept::Nothing(..) => return Ok(None),
+        };
+        let other = match self.other.get() {
+            Some(other) => Arc::clone(other),
+            None => {
+                let other = other_anew(self.motion, space, interrupt)?;
+                Arc::clone(self.other.get_or_init(|| other))
+            }
+        };
+        Ok(Some(EarlierIndex { map: map.map(Arc::new), levels, other }))
     }
 
     /// The same with options that name what is kept. Of labels the memory is named if they take more than by
@@ -216,28 +247,28 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
-        let other = Setup::new(substitute_for(self.motion), self.motion);
-        let anew = |space: &Space| prepare(other, space, Source { interrupt, ..Source::new(&|_| {}) });
-        let now = &P::layers(change.after(), Engine::Subgoal)?.free;
-        let (levels, map) = match &self.kept {
+        let anew = |space: &Space| other_anew(self.motion, space, interrupt);
+        let kept = match &self.kept {
             Kept::Nothing(identity, substitute) => {
                 let identity = Identity { map: change.after().identity().map, ..*identity };
-                let kept = Kept::Nothing(identity, other_after(substitute, change, anew, interrupt)?);
-                return shared(Ok(Self { kept, ..*self })).map(Some);
+                Kept::Nothing(identity, other_after(substitute, change, anew, interrupt)?)
             }
-            Kept::Earlier(earlier) => {
+            Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(_) => {
+                let Some(earlier) = self.earlier(change.before(), interrupt)? else { return Ok(None) };
                 let earlier = earlier.repaired(change, anew, interrupt)?;
-                return shared(Ok(Self { kept: Kept::of(earlier, now), ..*self })).map(Some);
-            }
-            Kept::Labels(Labeled { space, labels }) => {
-                (Levels::Labels, EarlierMap::of_labels(space, labels, now, change.of_grid()))
-            }
-            Kept::Graph(space, graph) => {
-                (graph.hierarchy().into(), EarlierMap::of_graph(space, graph, now, change.of_grid()))
+                Kept::of(earlier, &P::layers(change.after(), Engine::Subgoal)?.free)
             }
         };
-        let earlier = EarlierIndex { map: map.map(Arc::new), levels, other: anew(change.after())? };
-        shared(Ok(Self { kept: Kept::Earlier(earlier), ..*self })).map(Some)
+        shared(Ok(self.with(kept))).map(Some)
+    }
+
+    fn ready_for_changes(
+        &self,
+        space: &Space,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let Some(earlier) = self.earlier(space, interrupt)? else { return Ok(None) };
+        shared(Ok(self.with(Kept::Earlier(earlier)))).map(Some)
     }
 
     fn is_finished(&self) -> bool {
@@ -383,6 +414,12 @@ fn search_in<P: SubgoalPlacement>(
     let index = prepare(setup, &space, source)?;
     memory_check::check("the planner", index.scratch_bytes() as u64)?;
     index.search()
+}
+
+/// The index of the engine that searches where labels of an earlier map do not prove the answer.
+fn other_anew(motion: Motion, space: &Space, interrupt: &Interrupt) -> Result<Arc<dyn EngineIndex>, Error> {
+    let setup = Setup::new(substitute_for(motion), motion);
+    prepare(setup, space, Source { interrupt, ..Source::new(&|_| {}) })
 }
 
 /// The engine that searches where no subgoals were kept: the best that prepares little.

@@ -47,6 +47,12 @@ impl Index {
         Ok(Self { setup: self.setup, ..Self::from_source(after, self.setup.engine, source)? })
     }
 
+    /// The same index in the form that it has after a repair.
+    pub(crate) fn ready_for_changes(&self, interrupt: &Interrupt) -> Result<Self, Error> {
+        let ready = self.prepared.ready_for_changes(&self.space, interrupt)?;
+        Ok(ready.map_or_else(|| self.clone(), |prepared| Self { prepared, ..self.clone() }))
+    }
+
     /// Whether nothing of the index is that of an earlier map: always, but for one of subgoals that was
     /// [repaired](Self::repair).
     #[must_use]

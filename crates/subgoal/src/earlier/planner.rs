@@ -29,17 +29,22 @@ pub struct EarlierSearch<P: SubgoalPlacement, F> {
     is_proven: bool,
 }
 
+type OnLabels<P> = HubLabelSearch<Arc<FreeSpace<P>>, Arc<HubLabels<P>>>;
+type OnGraph<P> = SubgoalAStar<Arc<FreeSpace<P>>, Arc<SubgoalGraph<P>>, P>;
+
 /// A planner on the earlier map.
 enum Search<P: SubgoalPlacement> {
-    Labels(HubLabelSearch<Arc<FreeSpace<P>>, Arc<HubLabels<P>>>),
-    Graph(Box<SubgoalAStar<Arc<FreeSpace<P>>, Arc<SubgoalGraph<P>>, P>>),
+    Labels(Box<OnLabels<P>>),
+    Graph(Box<OnGraph<P>>),
 }
 
 impl<P: SubgoalPlacement> Search<P> {
     fn new(map: &EarlierMap<P>) -> Result<Self, Mismatch> {
         let then = Arc::clone(&map.then);
         Ok(match &map.prepared {
-            Prepared::Labels(labels) => Self::Labels(HubLabelSearch::new(then, Arc::clone(labels))?),
+            Prepared::Labels(labels) => {
+                Self::Labels(Box::new(HubLabelSearch::new(then, Arc::clone(labels))?))
+            }
             Prepared::Graph(graph) => Self::Graph(Box::new(SubgoalAStar::new(then, Arc::clone(graph))?)),
         })
     }

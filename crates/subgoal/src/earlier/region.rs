@@ -18,8 +18,11 @@ pub(super) struct OpenedRegion {
     pub(super) last: Vertex,
     /// The hubs of each contact on the earlier map, with the costs of the ways there; `None` if they are not
     /// known.
-    pub(super) hubs: Option<Vec<Box<[(u32, u64)]>>>,
+    pub(super) hubs: Option<Vec<Hubs>>,
 }
+
+/// Hubs, and the costs of the ways there.
+type Hubs = Box<[(u32, u64)]>;
 
 /// Where a path can enter or leave a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,11 +163,11 @@ fn around_cells(is_free: impl Fn(i32, i32) -> bool, region: &[(i32, i32)]) -> Ve
 /// the region and free cells, along a line and with the free cells on one side of it.
 fn along_sides(is_free: impl Fn(i32, i32) -> bool, region: &[(i32, i32)]) -> Vec<Contact> {
     /// The free cell beside a cell, the vertex at which their common side begins, and its direction.
-    const SIDES: [((i32, i32), (i32, i32), (i32, i32)); 4] = [
-        ((0, -1), (0, 0), (1, 0)),
-        ((0, 1), (0, 1), (1, 0)),
-        ((-1, 0), (0, 0), (0, 1)),
-        ((1, 0), (1, 0), (0, 1)),
+    const SIDES: [[(i32, i32); 3]; 4] = [
+        [(0, -1), (0, 0), (1, 0)],
+        [(0, 1), (0, 1), (1, 0)],
+        [(-1, 0), (0, 0), (0, 1)],
+        [(1, 0), (1, 0), (0, 1)],
     ];
     let mut contacts = Vec::new();
     let add = |contacts: &mut Vec<Contact>, at: (i32, i32), flat: Option<(usize, u32)>| {
@@ -173,7 +176,7 @@ fn along_sides(is_free: impl Fn(i32, i32) -> bool, region: &[(i32, i32)]) -> Vec
         contacts.push(Contact { at: Vertex::new(at.0, at.1), flats });
     };
     let mut flats = Flats::default();
-    for (kind, (beside, begin, along)) in SIDES.into_iter().enumerate() {
+    for (kind, [beside, begin, along]) in SIDES.into_iter().enumerate() {
         let begins = region.iter().filter(|&&(x, y)| is_free(x + beside.0, y + beside.1));
         let mut begins: Vec<(i32, i32)> = begins.map(|&(x, y)| (x + begin.0, y + begin.1)).collect();
         if along.1 == 1 {
