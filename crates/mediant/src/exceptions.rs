@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Answer, Limits, Query};
+use mediant_search::{Answer, Guarantee, Limits, Query};
 
 use crate::{
     change::Change, choice::Choice, engine::Engine, error::Error, index::Index, map::Map, planner::Planner,
@@ -38,9 +38,11 @@ pub struct Exceptions {
 pub struct ExceptedAnswer {
     /// The answer, which is that of the map with these cells changed.
     pub answer: Answer,
-    /// The engine that searched: the planner's if it prepares little, or if the map already has the cells as
-    /// the query wants them, else one that prepares next to nothing.
+    /// The engine that answered: the planner's where its index can be repaired, or if the map already has the
+    /// cells as the query wants them, else one that prepares next to nothing.
     pub searched_by: Engine,
+    /// The guarantee of its paths.
+    pub guarantee: Guarantee,
 }
 
 impl Exceptions {
@@ -155,8 +157,12 @@ impl Planner {
     ) -> Result<ExceptedAnswer, Error> {
         let query = query.into();
         let Some(change) = exceptions.change(self.index().space(), &query)? else {
-            let searched_by = self.index().searched_by();
-            return Ok(ExceptedAnswer { answer: self.find(query)?, searched_by });
+            let answer = self.find(query)?;
+            return Ok(ExceptedAnswer {
+                answer,
+                searched_by: self.searched_by(),
+                guarantee: self.guarantee(),
+            });
         };
         let known = self.excepted.take();
         let indexes = (self.index(), known.as_ref().map(|known| &known.base));
@@ -167,11 +173,11 @@ impl Planner {
             None => index.try_planner()?,
         };
         let answer = planner.find(query);
-        let searched_by = planner.searched_by();
+        let (searched_by, guarantee) = (planner.searched_by(), planner.guarantee());
         // So that nothing holds the map of this query.
         planner.follow(&base)?;
         self.excepted = Some(Box::new(Excepted { base, planner }));
-        Ok(ExceptedAnswer { answer: answer?, searched_by })
+        Ok(ExceptedAnswer { answer: answer?, searched_by, guarantee })
     }
 
     /// The planner of [`find_except`](Self::find_except), for one who wants its events or its steps; `None`

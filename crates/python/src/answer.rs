@@ -1,6 +1,8 @@
 //! The answer to a query.
 
-use mediant::{Answer, Error, ErrorCode, Guarantee, Limit, Rules, Stopped, search::Counters};
+use mediant::{
+    Answer, Engine, Error, ErrorCode, Guarantee, Limit, Planner, Rules, Stopped, search::Counters,
+};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -33,6 +35,9 @@ use crate::{arrays::PathPoints, errors::made};
 ///     without a path.
 /// counters : dict or None
 ///     The numbers of events of the search, if they were asked for.
+/// searched_by : str or None
+///     The engine that answered: that of the index, or the one that searched in its place
+///     (`Index.searched_by`, `Index.is_finished`). None if nothing was searched yet.
 ///
 /// Examples
 /// --------
@@ -70,6 +75,32 @@ pub(crate) struct PyAnswer {
     /// The numbers of events of the search.
     #[pyo3(get)]
     counters: Option<Py<PyDict>>,
+    /// The engine that answered.
+    #[pyo3(get)]
+    searched_by: Option<&'static str>,
+}
+
+/// What is known of a search beside its answer.
+#[derive(Clone, Copy)]
+pub(crate) struct Searched {
+    pub(crate) guarantee: Guarantee,
+    counters: Option<Counters>,
+    by: Option<Engine>,
+}
+
+impl Searched {
+    /// Nothing was searched.
+    pub(crate) const NOT: Self = Self { guarantee: Guarantee::Suboptimal, counters: None, by: None };
+
+    /// By an engine with this guarantee.
+    pub(crate) const fn of(guarantee: Guarantee, by: Engine) -> Self {
+        Self { guarantee, counters: None, by: Some(by) }
+    }
+
+    /// By a planner, last.
+    pub(crate) fn by(planner: &Planner, counters: Option<Counters>) -> Self {
+        Self { guarantee: planner.guarantee(), counters, by: Some(planner.searched_by()) }
+    }
 }
 
 #[pymethods]
@@ -81,13 +112,13 @@ impl PyAnswer {
 }
 
 impl PyAnswer {
-    /// The answer with its arrays, of an engine with this guarantee.
+    /// The answer of a search with its arrays.
     pub(crate) fn new(
         py: Python<'_>,
         answer: &Answer,
         points: PathPoints,
         rules: Rules,
-        (guarantee, counters): (Guarantee, Option<Counters>),
+        Searched { guarantee, counters, by }: Searched,
     ) -> PyResult<Self> {
         let array = |path| points.array(py, path, rules.placement()).map(Bound::unbind);
         Ok(Self {
@@ -99,6 +130,7 @@ impl PyAnswer {
             lower_bound: answer.lower_bound(guarantee),
             any_angle_lower_bound: answer.any_angle_lower_bound(guarantee, rules),
             counters: counters.map(|counters| in_dict(py, counters)).transpose()?,
+            searched_by: by.map(Engine::name),
         })
     }
 }
@@ -114,7 +146,7 @@ pub(crate) fn whole(py: Python<'_>, answer: Answer, points: PathPoints, rules: R
          far is in the error's answer",
         by.name()
     );
-    let told = PyAnswer::new(py, &answer, points, rules, (Guarantee::Suboptimal, None))?;
+    let told = PyAnswer::new(py, &answer, points, rules, Searched::NOT)?;
     Err(made(py, "LimitReached", (text, ErrorCode::Stopped.name(), told)))
 }
 
@@ -126,7 +158,7 @@ pub(crate) fn before_search(
     rules: Rules,
     error: &Error,
 ) -> PyResult<(PyAnswer, PyErr)> {
-    let told = || PyAnswer::new(py, answer, points, rules, (Guarantee::Suboptimal, None));
+    let told = || PyAnswer::new(py, answer, points, rules, Searched::NOT);
     let text = format!("{error}: nothing was searched; allow more time, or prepare an index before");
     Ok((told()?, made(py, "LimitReached", (text, ErrorCode::Stopped.name(), told()?))))
 }

@@ -56,16 +56,13 @@ impl Planner {
         let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
         memory::check("the search", memory::vertices(inner.index().space().map()), bytes)?;
         let (query, rules) = (keywords.query(&start, &goal), inner.index().setup().rules());
-        let mut other = match inner.except(&query, &exceptions) {
+        let (answer, guarantee) = match inner.find_except(query, &exceptions) {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                let answer = Answer::Stopped(Stopped::before_search(by, start));
-                return Ok(told(&answer, (Guarantee::Suboptimal, rules)));
+                (Answer::Stopped(Stopped::before_search(by, start)), Guarantee::Suboptimal)
             }
-            other => other.map_err(raised)?,
+            found => found.map(|found| (found.answer, found.guarantee)).map_err(raised)?,
         };
-        let planner = other.as_mut().unwrap_or(inner);
-        let answer = planner.find(query).map_err(raised)?;
-        Ok(told(&answer, (planner.guarantee(), rules)))
+        Ok(told(&answer, (guarantee, rules)))
     }
 }

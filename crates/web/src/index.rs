@@ -84,6 +84,12 @@ impl Index {
         self.inner.origin().name().to_owned()
     }
 
+    /// Whether nothing of it is that of an earlier map: false for subgoals that were repaired, until `finish`.
+    #[wasm_bindgen(getter, js_name = isFinished)]
+    pub fn is_finished(&self) -> bool {
+        self.inner.is_finished()
+    }
+
     /// The space that it belongs to.
     #[wasm_bindgen(getter)]
     pub fn space(&self) -> Space {
@@ -111,6 +117,17 @@ impl Index {
         space.check_room("the index", memory::INDEX)?;
         let change = Change::between(self.inner.space(), &space.inner).map_err(raised)?;
         Ok(Self { inner: self.inner.repair(&change).map_err(raised)?, world: space.world })
+    }
+
+    /// This index with all that a repair left made anew. After it, subgoals go on with the labels or the graph
+    /// of the earlier map where these prove the answer; elsewhere another engine searches
+    /// (`Planner.searchedBy`). To make them anew takes as long as `Space.prepare`: do it after some edits, in
+    /// a worker, which gets the cells and gives back `toBytes`.
+    ///
+    /// @throws MediantError as `Space.prepare`.
+    pub fn finish(&self) -> Result<Index, JsValue> {
+        self.space().check_room("the index", memory::INDEX)?;
+        Ok(Self { inner: self.inner.finish().map_err(raised)?, world: self.world })
     }
 
     /// A second handle to the same index, for arguments of calls.

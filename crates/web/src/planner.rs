@@ -106,6 +106,13 @@ fn trace_of(trace: &JsValue) -> Result<Option<Trace>, JsValue> {
 
 #[wasm_bindgen]
 impl Planner {
+    /// The engine that answered the last query: that of the index, or the one that searched in its place
+    /// (`Index.searchedBy`, `Index.isFinished`).
+    #[wasm_bindgen(getter, js_name = searchedBy)]
+    pub fn searched_by(&self) -> Result<String, JsValue> {
+        Ok(self.state()?.inner.searched_by().name().to_owned())
+    }
+
     /// Answers a query: from a start to a goal, or from any of several starts to any of several goals. A
     /// trace records the events of the search.
     ///

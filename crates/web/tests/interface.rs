@@ -181,6 +181,15 @@ fn planners_follow() {
     let hpa = ok(&space, "prepare", &["hpa".into(), json(r#"{"side": 4}"#)]);
     let repaired = ok(&hpa, "repair", std::slice::from_ref(&edited));
     let answer = ok(&ok(&repaired, "planner", &[]), "find", &[at(0, 0), at(7, 0)]);
+    // Labels of the map before answer where they prove it, until all is made anew.
+    let labels = ok(&space, "prepare", &["subgoal".into()]);
+    assert_eq!(get(&labels, "isFinished"), JsValue::TRUE);
+    let unfinished = ok(&labels, "repair", std::slice::from_ref(&edited));
+    assert_eq!(get(&unfinished, "isFinished"), JsValue::FALSE);
+    let asked = ok(&unfinished, "planner", &[]);
+    let found = ok(&asked, "find", &[at(0, 0), at(1, 0)]);
+    assert_eq!((get(&found, "status"), get(&asked, "searchedBy")), ("found".into(), "subgoal".into()));
+    assert_eq!(get(&ok(&unfinished, "finish", &[]), "isFinished"), JsValue::TRUE);
     // A planner of the index before goes on with the repaired one.
     let follower = ok(&hpa, "planner", &[]);
     ok(&follower, "begin", &[at(0, 0), at(7, 0)]);

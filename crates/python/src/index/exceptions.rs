@@ -1,11 +1,11 @@
 //! Cells that count otherwise for one query.
 
-use mediant::{Answer, Error, Exceptions, Guarantee, Stopped};
+use mediant::{Answer, Error, Exceptions, Stopped};
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
 use crate::{
-    answer::PyAnswer,
+    answer::{PyAnswer, Searched},
     arguments::{Points, flag},
     arrays::PathPoints,
     background::Interruption,
@@ -99,15 +99,15 @@ impl Index {
         let query = keywords.query(&start, &goal, Some(&interruption));
         let answered = py.detach(|| {
             self.planners.with(|planner| {
+                if !counts {
+                    let found = planner.find_except(query, &exceptions)?;
+                    let searched = Searched::of(found.guarantee, found.searched_by);
+                    return Ok((found.answer, searched));
+                }
                 let mut other = planner.except(&query, &exceptions)?;
                 let planner = other.as_mut().unwrap_or(planner);
-                let (answer, counters) = if counts {
-                    let (answer, counters) = planner.find_counted(query)?;
-                    (answer, Some(counters))
-                } else {
-                    (planner.find(query)?, None)
-                };
-                Ok::<_, Error>((answer, (planner.guarantee(), counters)))
+                let (answer, counters) = planner.find_counted(query)?;
+                Ok::<_, Error>((answer, Searched::by(planner, Some(counters))))
             })
         });
         if let Some(error) = interruption.take() {
@@ -116,7 +116,7 @@ impl Index {
         let (answer, rest) = match answered {
             Err(Error::Stopped { by, .. }) => {
                 let start = start.as_slice().first().copied().unwrap_or_default();
-                (Answer::Stopped(Stopped::before_search(by, start)), (Guarantee::Suboptimal, None))
+                (Answer::Stopped(Stopped::before_search(by, start)), Searched::NOT)
             }
             answered => answered.map_err(raised)?,
         };

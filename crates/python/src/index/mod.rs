@@ -43,6 +43,9 @@ use crate::grid::Grid;
 ///     All of it and the options in one text: the same text, the same answers.
 /// origin : {"prepared", "loaded", "repaired", "unchanged"}
 ///     The way in which it came about.
+/// is_finished : bool
+///     Whether nothing of it is that of an earlier map: False for subgoals that were repaired, until
+///     `finish`.
 /// guarantee : str
 ///     The guarantee of its paths.
 /// bound : float or None
@@ -140,6 +143,12 @@ impl Index {
     #[getter]
     fn origin(&self) -> &'static str {
         self.planners.index().origin().name()
+    }
+
+    /// Whether nothing of it is that of an earlier map.
+    #[getter]
+    fn is_finished(&self) -> bool {
+        self.planners.index().is_finished()
     }
 
     /// The guarantee of its paths.

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use mediant::{Answer, Ends, Limits, Planners, search::Counters};
+use mediant::{Answer, Ends, Limits, Planners, errors::QueryError};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
 use crate::{
-    answer::{self, PyAnswer},
+    answer::{self, PyAnswer, Searched},
     arguments::{Points, flag},
     arrays::PathPoints,
     background::{Interruption, is_watched, on_thread},
@@ -41,7 +41,7 @@ impl Asked<'_, '_> {
     }
 
     /// Answers it with the GIL released.
-    fn answered(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Answer, Option<Counters>)> {
+    fn answered(&self, ends: &(Points, Points), counts: bool) -> PyResult<(Answer, Searched)> {
         let is_plain = self.plain(ends).is_some();
         let is_watched =
             self.keywords.call.wishes().timeout.is_some() || is_watched(self.planners.index(), is_plain);
@@ -55,11 +55,15 @@ impl Asked<'_, '_> {
         let interruption = is_watched.then(Interruption::default);
         let query = self.keywords.query(&ends.0, &ends.1, interruption.as_ref());
         let answer = self.start.py().detach(|| {
-            if counts {
-                let find = |planner: &mut mediant::Planner| planner.find_counted(query);
-                return self.planners.with(find).map(|(answer, counters)| (answer, Some(counters)));
-            }
-            self.planners.find(query).map(|answer| (answer, None))
+            self.planners.with(|planner| {
+                let (answer, counters) = if counts {
+                    let (answer, counters) = planner.find_counted(query)?;
+                    (answer, Some(counters))
+                } else {
+                    (planner.find(query)?, None)
+                };
+                Ok::<_, QueryError>((answer, Searched::by(planner, counters)))
+            })
         });
         if let Some(error) = interruption.and_then(|interruption| interruption.take()) {
             return Err(error);
@@ -103,8 +107,8 @@ impl Asked<'_, '_> {
         let points = PathPoints::read(points)?;
         let counters = counters.map_or(Ok(false), |value| flag("counters", value))?;
         let setup = self.planners.index().setup();
-        let (answer, counters) = self.answered(&self.ends()?, counters)?;
-        PyAnswer::new(py, &answer, points, setup.rules(), (setup.guarantee(), counters))
+        let (answer, searched) = self.answered(&self.ends()?, counters)?;
+        PyAnswer::new(py, &answer, points, setup.rules(), searched)
     }
 }
 

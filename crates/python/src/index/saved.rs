@@ -61,7 +61,7 @@ impl Index {
     ///
     /// It is repaired by work that follows the difference of the grids where the engine's index can be, else
     /// prepared anew: `origin` says which it was. This index stays as it is, but that it hands the scratch
-    /// memory of its searches on to the new one.
+    /// memory of its searches on to the new one. Of subgoals something is left to make anew: see `finish`.
     ///
     /// Parameters
     /// ----------
@@ -71,7 +71,7 @@ impl Index {
     /// Returns
     /// -------
     /// Index
-    ///     The same as one prepared anew.
+    ///     It finds paths of the same lengths as one prepared anew.
     ///
     /// Examples
     /// --------
@@ -98,6 +98,35 @@ impl Index {
         };
         let planners = on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?;
         Ok(Self { grid: changed, planners: Arc::new(planners) })
+    }
+
+    /// This index with all that a repair left made anew.
+    ///
+    /// After `repair`, subgoals go on with the labels or the graph of the earlier map, where these prove the
+    /// answer; elsewhere another engine searches. Answers are exact all the time (`Answer.searched_by` tells
+    /// by which engine). To make them anew takes as long as `Grid.prepare`, with the GIL released: call it
+    /// from a thread, after some edits. If the grid has changed again meanwhile, `repair` the finished index
+    /// for it.
+    ///
+    /// Returns
+    /// -------
+    /// Index
+    ///     The same as one prepared anew; this index, if nothing was left (`is_finished`).
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", "##.#", "...."])
+    /// >>> index = grid.prepare().repair(grid.edit((1, 0), [[False]]))
+    /// >>> index.find((0, 0), (2, 0)).searched_by
+    /// 'jps-block'
+    /// >>> index.finish().find((0, 0), (2, 0)).searched_by
+    /// 'subgoal'
+    fn finish(&self, py: Python<'_>) -> PyResult<Self> {
+        let planners = Arc::clone(&self.planners);
+        let work = move |limits: &Limits| in_pool(None, || planners.index().within(limits).finish());
+        let index = on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?;
+        Ok(Self::new(self.grid.clone(), index))
     }
 
     /// Writes the index to a file, for `Grid.load`. An older file there is replaced as a whole.

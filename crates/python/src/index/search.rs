@@ -5,11 +5,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard},
 };
 
-use mediant::{
-    Answer, Ends, Guarantee, Limits, Path, Planner, Rules, Vertex,
-    errors::QueryError,
-    search::{Counters, Observer},
-};
+use mediant::{Answer, Ends, Limits, Path, Planner, Rules, Vertex, errors::QueryError, search::Observer};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -18,7 +14,7 @@ use super::{
     trace::{Events, Kind, Watched},
 };
 use crate::{
-    answer::PyAnswer,
+    answer::{PyAnswer, Searched},
     arguments::{Points, file, flag, integer, point},
     arrays::{PathPoints, points_array},
     background::on_thread,
@@ -62,9 +58,6 @@ pub(crate) struct Search {
     rules: Rules,
 }
 
-/// A guarantee, and counters if events are kept.
-type Promised = (Guarantee, Option<Counters>);
-
 struct State {
     planner: Planner,
     /// For the file of a trace: the first start and the first goal.
@@ -90,9 +83,9 @@ impl State {
         Ok(step)
     }
 
-    /// The guarantee of an answer, and the counters if events are kept.
-    fn promised(&self) -> Promised {
-        (self.planner.guarantee(), self.trace.as_ref().map(Events::counters))
+    /// What is known beside the answer: the counters if events are kept.
+    fn searched(&self) -> Searched {
+        Searched::by(&self.planner, self.trace.as_ref().map(Events::counters))
     }
 
     /// The events, if they are kept and had room.
@@ -115,8 +108,8 @@ fn idle(state: &Mutex<State>) -> PyResult<MutexGuard<'_, State>> {
 
 impl Search {
     /// An answer with its arrays.
-    fn told(&self, py: Python<'_>, answer: &Answer, promised: Promised) -> PyResult<PyAnswer> {
-        PyAnswer::new(py, answer, self.points, self.rules, promised)
+    fn told(&self, py: Python<'_>, answer: &Answer, searched: Searched) -> PyResult<PyAnswer> {
+        PyAnswer::new(py, answer, self.points, self.rules, searched)
     }
 
     /// A path with its array.
@@ -125,11 +118,11 @@ impl Search {
     }
 
     fn step_by(&self, py: Python<'_>, expansions: u64) -> PyResult<Option<PyAnswer>> {
-        let (step, promised) = py.detach(|| {
+        let (step, searched) = py.detach(|| {
             let mut state = idle(&self.state)?;
-            Ok::<_, PyErr>((state.step(expansions)?, state.promised()))
+            Ok::<_, PyErr>((state.step(expansions)?, state.searched()))
         })?;
-        step.map_err(raised)?.map(|answer| self.told(py, &answer, promised)).transpose()
+        step.map_err(raised)?.map(|answer| self.told(py, &answer, searched)).transpose()
     }
 
     /// The vertices of the events of a kind, in their order.
@@ -166,11 +159,11 @@ impl Search {
     /// The answer, once it is there.
     #[getter]
     fn answer(&self, py: Python<'_>) -> PyResult<Option<PyAnswer>> {
-        let (answer, promised) = {
+        let (answer, searched) = {
             let state = idle(&self.state)?;
-            (state.answer.clone(), state.promised())
+            (state.answer.clone(), state.searched())
         };
-        answer.map(|answer| self.told(py, &answer, promised)).transpose()
+        answer.map(|answer| self.told(py, &answer, searched)).transpose()
     }
 
     /// Goes on by at most so many expansions.
