@@ -18,6 +18,9 @@
 //! # Ok::<(), mediant_formats::ReadError>(())
 //! ```
 //!
+//! A [`Scenario`] has queries on one map, a [`DynamicScenario`] those on a map that changes between them: one
+//! of the Grid-Based Path Planning Competition, made of patches.
+//!
 //! **The key decision for MovingAI files: a parsed file keeps its bytes.** [`MapFile`] and [`Scenario`] hold
 //! the text from which they were parsed beside what the parser found in it. So writing gives back every byte:
 //! line ends, the order of the header, separators, the digits of a length. A parser that kept these as
@@ -39,7 +42,7 @@
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
-//! | none | [`MapFile`], [`Scenario`], [`Raster`] of PGM and PBM, [`RosMap`] | `mediant-grid`, `thiserror` |
+//! | none | [`MapFile`], [`Scenario`], [`DynamicScenario`], [`Raster`] of PGM and PBM, [`RosMap`] | `mediant-grid`, `thiserror` |
 //! | `save` | `NewFile`: a file that is written whole or not at all; `RosMap::save` | `tempfile` |
 //! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs; `save` | `sha2` |
 //! | `png` | PNG wherever there are pictures | `png` |
@@ -51,6 +54,7 @@
 //! Not here: searches and engines. Indexes, traces and pictures are made of names, numbers and bytes. It is
 //! not checked whether a query's start or goal is free, since that depends on where the vertices are.
 
+mod dynamic;
 mod foreign;
 mod fraction;
 #[cfg(feature = "index")]
@@ -72,6 +76,9 @@ mod text;
 mod trace;
 mod world;
 
+pub use dynamic::{
+    DynamicError, DynamicEvent, DynamicQuery, DynamicScenario, Optimal, Patch, PatchError, PlacedPatch,
+};
 pub use fraction::{Fraction, FractionError};
 #[cfg(feature = "index")]
 pub use index::{IndexError, IndexFile, IndexKey};

@@ -11,7 +11,11 @@ use mediant_grid::{Grid, GridError, Interrupt, Interrupted};
 #[cfg(feature = "index")]
 use crate::index::error::IndexError;
 use crate::{
-    map::error::MapError, raster::error::RasterError, ros::error::RosError, scenario::error::ScenarioError,
+    dynamic::error::{DynamicError, PatchError},
+    map::error::MapError,
+    raster::error::RasterError,
+    ros::error::RosError,
+    scenario::error::ScenarioError,
 };
 
 /// The size of the largest file that is read, in bytes: twice that of the largest map, of [`Grid::MAX_SIDE`]
@@ -112,6 +116,22 @@ pub enum ReadError {
         path: PathBuf,
         /// The fault in the file.
         source: ScenarioError,
+    },
+    /// The file is no scenario of a map that changes.
+    #[error("{}: {source}", path.display())]
+    Dynamic {
+        /// The file.
+        path: PathBuf,
+        /// The fault in the file.
+        source: DynamicError,
+    },
+    /// The file that a scenario of a map that changes names has no patches.
+    #[error("{}: {source}", path.display())]
+    Patches {
+        /// The file.
+        path: PathBuf,
+        /// The fault in the file.
+        source: PatchError,
     },
     /// The file is no index. Needs the feature `index`.
     #[cfg(feature = "index")]

@@ -249,7 +249,9 @@ const fn of_read(error: &ReadError) -> ErrorCode {
         | ReadError::Ros { .. }
         | ReadError::NoMap { .. } => ErrorCode::MapFormat,
         ReadError::RosImage { source, .. } => of_read(source),
-        ReadError::Scenario { .. } => ErrorCode::ScenarioFormat,
+        ReadError::Scenario { .. } | ReadError::Dynamic { .. } | ReadError::Patches { .. } => {
+            ErrorCode::ScenarioFormat
+        }
         ReadError::Index { source, .. } => of_index(source),
         _ => ErrorCode::FileUnreadable,
     }

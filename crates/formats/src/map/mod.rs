@@ -1,7 +1,7 @@
 //! MovingAI maps, `.map`.
 
 pub(crate) mod error;
-mod parse;
+pub(crate) mod parse;
 mod tiles;
 
 use std::{io, path::Path};

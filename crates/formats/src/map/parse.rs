@@ -33,6 +33,11 @@ fn parse_header(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
         return Err(MapError::Header { line: 1, expected: "`type octile`", found });
     }
     check_line(lines, &[b"type", b"octile"], "`type octile`")?;
+    sides(lines)
+}
+
+/// The width and the height in the lines above the rows, with the line `map`.
+pub(crate) fn sides(lines: &mut Lines<'_>) -> Result<(u32, u32), MapError> {
     let (mut width, mut height) = (None, None);
     let sides = loop {
         let expected = match (width, height) {
@@ -87,8 +92,22 @@ fn parse_side(line: usize, text: &[u8], side: &'static str) -> Result<u32, MapEr
     }
 }
 
-/// Where each row begins. The list grows with the rows that the file has, not with the height that it states.
+/// Where each row begins, in a file that ends with the last.
 fn parse_rows(
+    lines: &mut Lines<'_>,
+    (width, height): (u32, u32),
+    tiles: &Tiles,
+    interrupt: &Interrupt,
+) -> Result<Vec<usize>, MapError> {
+    let rows = take_rows(lines, (width, height), tiles, interrupt)?;
+    match lines.find(|line| !line.is_blank()) {
+        None => Ok(rows),
+        Some(line) => Err(MapError::ManyRows { line: line.number, height, found: quote(line.text) }),
+    }
+}
+
+/// Where each row begins. The list grows with the rows that the file has, not with the height that it states.
+pub(crate) fn take_rows(
     lines: &mut Lines<'_>,
     (width, height): (u32, u32),
     tiles: &Tiles,
@@ -105,10 +124,7 @@ fn parse_rows(
         check_row(line, width, known, tiles)?;
         rows.push(line.start);
     }
-    match lines.find(|line| !line.is_blank()) {
-        None => Ok(rows),
-        Some(line) => Err(MapError::ManyRows { line: line.number, height, found: quote(line.text) }),
-    }
+    Ok(rows)
 }
 
 /// Checks that a row has `width` tiles; an error names the first column that is wrong.

@@ -147,7 +147,7 @@ impl Tiles {
     }
 
     /// For each byte of a MovingAI map whether it is a free tile; `None` for what is no tile.
-    pub(super) fn table(&self) -> [Option<bool>; 256] {
+    pub(crate) fn table(&self) -> [Option<bool>; 256] {
         let mut table = [None; 256];
         for byte in b' '..=b'~' {
             // A space is a tile only for those who say so.

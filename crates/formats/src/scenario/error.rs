@@ -19,6 +19,12 @@ pub enum ScenarioError {
         /// The text found there.
         found: String,
     },
+    /// The first line is `version 2`.
+    #[error(
+        "line 1, column 1: expected `version 1` or `version 1.0`, found `version 2`; this is a scenario of a \
+         map that changes, which has its map with it: give it in place of a map"
+    )]
+    Dynamic,
     /// A line has too few or too many fields.
     #[error(
         "line {line}, column {column}: expected nine fields (bucket, map, width, height, start x, start y, \

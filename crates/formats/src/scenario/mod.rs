@@ -3,7 +3,7 @@
 pub(crate) mod error;
 mod instance;
 mod mismatch;
-mod parse;
+pub(crate) mod parse;
 mod write;
 
 use std::{io, path::Path};

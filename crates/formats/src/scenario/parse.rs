@@ -8,15 +8,19 @@ use super::{
     error::ScenarioError,
     instance::{Instance, LENGTHS, MAP_NAMES, is_length, is_map_name},
 };
+use crate::dynamic::parse::is_dynamic;
 use crate::text::{Line, Lines, quote, quote_line, words};
 
-const COUNTS: &str = "a whole number from 0 to 4294967295";
-const COORDINATES: &str = "a whole number from -2147483648 to 2147483647";
+pub(crate) const COUNTS: &str = "a whole number from 0 to 4294967295";
+pub(crate) const COORDINATES: &str = "a whole number from -2147483648 to 2147483647";
 
 /// The queries of a scenario, in the order of its lines.
 pub(super) fn instances(text: &[u8]) -> Result<Vec<Instance>, ScenarioError> {
     let mut lines = Lines::new(text);
     let first = lines.next().ok_or(ScenarioError::Empty)?;
+    if is_dynamic(text) {
+        return Err(ScenarioError::Dynamic);
+    }
     if !is_version(first.text) {
         return Err(ScenarioError::Version { found: quote_line(Some(first)) });
     }

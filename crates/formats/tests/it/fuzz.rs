@@ -1,6 +1,6 @@
 //! Valid files mutated at random: parsing never panics, and what it accepts is written back byte for byte.
 
-use mediant_formats::{MapFile, Scenario};
+use mediant_formats::{DynamicEvent, DynamicScenario, MapFile, Patch, Scenario};
 
 const ROUNDS: u64 = 20_000;
 const SEED: u64 = 0x4d41_5046;
@@ -117,6 +117,61 @@ fn mutated_scenarios() {
         let again = Scenario::parse(written.as_bytes()).expect(context);
         assert_eq!(again.instances(), scenario.instances(), "{context}");
         true
+    });
+}
+
+#[test]
+fn mutated_patches() {
+    let texts = [
+        "type patch\npatches 2\npatch 0\nheight 2\nwidth 3\nmap\n..@\nSW.\npatch 1\nheight 1\nwidth 1\nmap\nT\n",
+        "type patch\r\npatches 1\r\n\r\npatch 0\r\nwidth 2\r\nheight 1\r\nmap\r\n.@\r\n\r\n",
+        "type patch\npatches 0",
+    ];
+    rounds(&texts, |text, context| match Patch::parse_all(text) {
+        Ok(patches) => {
+            for patch in &patches {
+                assert_eq!(patch.rows().len(), patch.height() as usize, "{context}");
+                let cells: Vec<bool> = patch.rows().flatten().copied().collect();
+                assert_eq!(Patch::new(patch.width(), cells), **patch, "{context}");
+            }
+            true
+        }
+        Err(error) => {
+            check_place(text, &error.to_string(), context);
+            false
+        }
+    });
+}
+
+#[test]
+fn mutated_scenarios_of_maps_that_change() {
+    let patches = b"type patch\npatches 2\npatch 0\nheight 2\nwidth 3\nmap\n..@\nSW.\npatch 1\nheight 1\nwidth 1\nmap\nT\n";
+    let patches = Patch::parse_all(patches).expect("two patches");
+    let texts = [
+        "version 2\nheight 3\nwidth 4\ncost 1 octile\npatch a.patch\ncommands\nP 0 0 1 1\nQ 0 0 0 3 2 3.41\nP 7 1 3 2\n",
+        "version 2\r\nwidth 4\r\nheight 3\r\npatch my a.patch\r\ncommands\r\nQ 0 0 0 -1 2\r\nP 0 1 3 2\r\n",
+        "version 2\nheight 2\nwidth 3\ncost 2 moves octile\npatch a.patch\ncommands\nQ 1 0 0 2 1 9 -1",
+    ];
+    rounds(&texts, |text, context| match DynamicScenario::parse(text, &patches) {
+        Ok(scenario) => {
+            let size = (scenario.width(), scenario.height());
+            assert!(!DynamicScenario::patch_file(text).expect(context).is_empty(), "{context}");
+            for event in scenario.events() {
+                let DynamicEvent::Patch(placed) = event else { continue };
+                let at = placed.rectangle();
+                assert!(at.x + at.width <= size.0 && at.y + at.height <= size.1, "{context}");
+            }
+            // Sides of any size may be stated, but here they are few digits.
+            if size.0 < 1_000 && size.1 < 1_000 {
+                let grid = scenario.grid();
+                assert_eq!((grid.width(), grid.height()), size, "{context}");
+            }
+            true
+        }
+        Err(error) => {
+            check_place(text, &error.to_string(), context);
+            false
+        }
     });
 }
 

@@ -1,6 +1,7 @@
 //! The tests of all formats, with every feature of the crate.
 
 mod damage;
+mod dynamic;
 mod fixtures;
 mod fuzz;
 mod identity;

@@ -100,7 +100,7 @@ fn versions_that_are_refused() {
     let cases = [
         ("\n", "an empty line"),
         ("version\n", "`version`"),
-        ("version 2\n", "`version 2`"),
+        ("version 3\n", "`version 3`"),
         ("version 1 0\n", "`version 1 0`"),
         ("type octile\nheight 1\n", "`type octile`"),
         ("0\ta.map\t1\t1\t0\t0\t0\t0\t0\n", "`0\\ta.map\\t1\\t1\\t0\\t0\\t0\\t0\\t0`"),
@@ -110,6 +110,11 @@ fn versions_that_are_refused() {
             format!("line 1, column 1: expected `version 1` or `version 1.0`, found {found}; {rest}");
         refused(text, &message);
     }
+    refused(
+        "version 2\nheight 1\n",
+        "line 1, column 1: expected `version 1` or `version 1.0`, found `version 2`; this is a scenario of a map \
+         that changes, which has its map with it: give it in place of a map",
+    );
     refused(
         "",
         "line 1, column 1: expected a MovingAI scenario, found an empty file; is this the file that you meant?",
