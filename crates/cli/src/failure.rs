@@ -62,10 +62,15 @@ pub(crate) enum Failure {
         corners[0].0, corners[0].1, corners[1].0, corners[1].1
     )]
     OutsideWorld { x: f64, y: f64, corners: [(f64, f64); 2] },
-    #[error("no queries: give --scen FILE, --pairs FILE, or --from X,Y and --to X,Y")]
+    #[error("no queries: give --scen FILE, --pairs FILE, --edits FILE, or --from X,Y and --to X,Y")]
     NoQueries,
     #[error("{}: no pair in it: write a line x1,y1,x2,y2 for each query", path.display())]
     NoPairs { path: PathBuf },
+    #[error(
+        "{}: nothing in it: write a line {{\"type\":\"query\",\"start\":[x,y],\"goal\":[x,y]}} for each query, and \
+         {{\"type\":\"edit\",\"x\":x,\"y\":y,\"rows\":[\"..#\"]}} for each edit", path.display()
+    )]
+    NoEvents { path: PathBuf },
     #[error("the scenario `{scenario}` has no instance: is it cut short?")]
     NoInstances { scenario: String },
     #[error("{}{}", if .0.parameter().is_some() { "--" } else { "" }, .0)]

@@ -19,6 +19,7 @@ mod builtin;
 mod check;
 mod commands;
 mod draw;
+mod edit;
 mod failure;
 mod map;
 mod run;

@@ -1,13 +1,18 @@
 //! Maps and scenarios that the arguments name: from files, or bundled.
 
-use std::{path::Path, sync::Arc};
+use std::{
+    fs::{self, File},
+    io::Read,
+    path::Path,
+    sync::Arc,
+};
 
 use mediant::{
-    Motion, PlacementKind, Vertex,
+    Disc, Motion, PlacementKind, Vertex,
     files::{Tiles, WorldFrame},
     grid::Grid,
 };
-use mediant_formats::{Ground, MapFile, ReadError, Scenario, read_map};
+use mediant_formats::{DynamicScenario, Ground, MapFile, ReadError, Scenario, read_map};
 
 use crate::{
     args::{MapArgs, Place},
@@ -36,6 +41,10 @@ pub(crate) struct NamedMap {
     pub(crate) place: Option<WorldFrame>,
     /// The characters of a MovingAI map, where they are needed: a byte a cell.
     tiles: Option<MapFile>,
+    /// The agent's map with its obstacles, if it has a radius.
+    pub(crate) disc: Option<Disc>,
+    /// The scenario, if the map is that of a scenario of a map that changes.
+    pub(crate) scenario: Option<Arc<DynamicScenario>>,
 }
 
 impl NamedMap {
@@ -51,17 +60,23 @@ impl NamedMap {
             let map = Self::bundled(builtin?, options.tiles)?;
             return if args.world { Err(Failure::NoWorld { map: map.name }) } else { Ok(map) };
         }
-        let (name, source) = (file_name(&args.map), read_map(&args.map, &options)?);
-        if args.names_tiles() && source.tiles.is_none() {
+        let name = file_name(&args.map);
+        let (grid, tiles, place, scenario) = match changing(&args.map)? {
+            Some(scenario) => (scenario.grid(), None, None, Some(Arc::new(scenario))),
+            None => {
+                let source = read_map(&args.map, &options)?;
+                (source.grid, source.tiles, source.frame, None)
+            }
+        };
+        if args.names_tiles() && tiles.is_none() {
             let option = if args.free.is_some() { "--free" } else { "--blocked" };
             return Err(Failure::NoTiles { map: name, option });
         }
-        if args.world && source.frame.is_none() {
+        if args.world && place.is_none() {
             return Err(Failure::NoWorld { map: name });
         }
-        let frame = source.frame.filter(|_| args.world);
-        let place = source.frame;
-        Ok(Self { frame, place, ..Self::new(name, Arc::new(source.grid), source.tiles, Theme::Plain) })
+        let frame = place.filter(|_| args.world);
+        Ok(Self { frame, place, scenario, ..Self::new(name, Arc::new(grid), tiles, Theme::Plain) })
     }
 
     /// Parses a bundled map, of these tiles.
@@ -71,7 +86,9 @@ impl NamedMap {
     }
 
     fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
-        Self { name, ground: Arc::clone(&grid), grid, radius: 0.0, theme, frame: None, place: None, tiles }
+        let ground = Arc::clone(&grid);
+        let (frame, place, disc, scenario) = (None, None, None, None);
+        Self { name, grid, ground, radius: 0.0, theme, frame, place, tiles, disc, scenario }
     }
 
     /// Whether it is a MovingAI map that was loaded [with its characters](Self::load_with_tiles).
@@ -119,8 +136,9 @@ impl NamedMap {
     pub(crate) fn for_agent(mut self, args: &MapArgs, motion: Motion) -> Result<Self, Failure> {
         if let Some(radius) = args.radius {
             self.radius = self.cells(radius);
-            let map = mediant::Map::from(Arc::clone(&self.ground)).for_disc(self.radius, motion)?;
-            self.grid = Arc::clone(map.grid());
+            let disc = mediant::Map::from(Arc::clone(&self.ground)).disc(self.radius, motion)?;
+            self.grid = Arc::clone(disc.map().grid());
+            self.disc = Some(disc);
             if self.radius > 0.0 && self.grid == self.ground {
                 say_warning(&self.radius_without_effect());
             }
@@ -139,6 +157,12 @@ impl NamedMap {
             "a radius of {:.4} cells changes nothing: such a disc fits wherever a point may be{advice}",
             self.radius
         )
+    }
+
+    /// Takes the maps after an edit: of the obstacles, and that of the agent. The file's characters are of
+    /// the past then.
+    pub(crate) fn take_edited(&mut self, ground: &Arc<Grid>, grid: &Arc<Grid>) {
+        (self.ground, self.grid, self.tiles) = (Arc::clone(ground), Arc::clone(grid), None);
     }
 
     /// The map as the library searches it.
@@ -199,6 +223,20 @@ pub(crate) fn load_scenario(path: &Path) -> Result<(String, Scenario), Failure> 
             Ok((builtin.scenario_name(), builtin.scenario()?))
         }
     }
+}
+
+/// The scenario of a map that changes in a file; `None` for other files.
+fn changing(path: &Path) -> Result<Option<DynamicScenario>, Failure> {
+    // Opening a pipe may never return.
+    if !fs::metadata(path).is_ok_and(|metadata| metadata.is_file()) {
+        return Ok(None);
+    }
+    let mut first = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(64).read_to_end(&mut first));
+    if read.is_err() || !DynamicScenario::is_one(&first) {
+        return Ok(None);
+    }
+    Ok(Some(DynamicScenario::read(path)?))
 }
 
 /// The last part of a path. It may hold control characters.

@@ -39,7 +39,8 @@ center, or corner with --k any; so are --corners and --gap";
 const CHECK_HELP: &str = "\
 A path holds if its ends are free, each of its segments obeys the rules of motion on this map, and each is \
 made of moves of N(k). For a path that does not hold, a line says where: the index of its query, the \
-segment, counted from 0, with its ends, and the blocked cell. Queries without a path are passed over.
+segment, counted from 0, with its ends, and the blocked cell. Queries without a path are passed over. Edits \
+between the queries of a run change the map for the paths after them.
 
 With --radius a path must hold on the map of that agent, which is that of run with the same --k (for CSV 3 \
 by default). With --world, CSV is in meters. A path that was found with --grounds must hold on the ground of \

@@ -29,6 +29,10 @@ pub(crate) struct RunArgs {
     /// in meters); a first line of names is passed over; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scen", "from", "to", "distances"])]
     pub(crate) pairs: Option<PathBuf>,
+    /// A timeline of JSON lines, with edits of the map, {"type":"edit","x","y","rows":["..#"]} (# is blocked,
+    /// . free), and the queries between them, {"type":"query","start":[x,y],"goal":[x,y]}; - is stdin
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scen", "pairs", "from", "to", "grounds"])]
+    pub(crate) edits: Option<PathBuf>,
     /// Take the instances whose index, counted from 0, is divisible by N
     #[arg(long, value_name = "N", conflicts_with_all = ["from", "to"])]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroUsize::MAX))]
@@ -102,6 +106,17 @@ looks at a limit.
 
 For a builtin map without queries, the queries are those of its own scenario.
 
+After an edit the index is repaired, or prepared anew where its engine cannot be repaired, and the planner follows. \
+The time of a change has all of that; the time of a query is as ever. The coordinates of a timeline are cells and \
+vertices, also with --world. Edits with \"more\": true are one change with the next. With --format jsonl each edit is \
+repeated, with the number of \"cells\" that it changed and the \"nanos\" of its change (0 where more follow), so that \
+the output can be replayed; it is a timeline, too.
+
+The map may be a scenario of the Grid-Based Path Planning Competition, version 2, with its file of patches beside it: \
+its patches and queries are a timeline, and its octile costs are compared. The patches before the first query make the \
+map, which the output tells as an edit with \"initial\": true of a map without obstacles. Other commands take such a \
+scenario as its map at the first query.
+
 A trace is JSON for the Posthoc visualizer: every event of the search, then the path found.
 
 Exit status: 0 if every query was answered (found, unreachable, nearest or stopped), 1 if any was an error, \
@@ -112,6 +127,8 @@ Examples:
   mediant run builtin:archipelago
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
   mediant run arena.map --pairs pairs.csv --format jsonl
+  mediant run arena.map --edits timeline.jsonl --engine jps-block
+  mediant run changing.scen
   mediant run arena.map --from 1,11 --to 40,30 --draw
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
   mediant run arena.map --from 1,11 --to 40,30 --draw path.svg

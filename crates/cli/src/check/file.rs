@@ -7,11 +7,25 @@ use std::{
 };
 
 use mediant::{K, Setup, Vertex};
-use mediant_formats::{MAX_FILE_BYTES, ReadError};
+use mediant_formats::{MAX_FILE_BYTES, PlacedPatch, ReadError};
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::{args::Place, failure::Failure};
+use crate::{
+    args::Place,
+    edit::{EditLine, json_problem},
+    failure::Failure,
+};
+
+/// An entry of a file; their order counts.
+#[derive(Debug)]
+pub(crate) enum Entry {
+    /// A run begins, with the map as it was read.
+    Run,
+    /// An edit of the map, for the paths after it, with its line.
+    Edit(usize, PlacedPatch),
+    Path(Listed),
+}
 
 /// A path of a file.
 #[derive(Debug)]
@@ -47,6 +61,7 @@ pub(crate) struct RunSetup {
 #[serde(tag = "type", rename_all = "lowercase")]
 enum Line {
     Run(RunLine),
+    Edit(EditLine),
     Query {
         index: usize,
         #[serde(default)]
@@ -82,13 +97,14 @@ impl RunLine {
 }
 
 /// Reads a file with paths; `-` is stdin.
-pub(crate) fn read(path: &Path) -> Result<Vec<Listed>, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Vec<Entry>, Failure> {
     let bytes = bytes(path)?;
     let is_json = bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
-    let mut paths = Vec::new();
-    let read = if is_json { jsonl(&bytes, &mut paths) } else { csv(&bytes, &mut paths) };
+    let mut entries = Vec::new();
+    let read = if is_json { jsonl(&bytes, &mut entries) } else { csv(&bytes, &mut entries) };
     read.map_err(|(line, problem)| Failure::PathFile { path: shown(path), line, problem })?;
-    if paths.is_empty() { Err(Failure::NoPaths { path: shown(path) }) } else { Ok(paths) }
+    let has_path = entries.iter().any(|entry| matches!(entry, Entry::Path(_)));
+    if has_path { Ok(entries) } else { Err(Failure::NoPaths { path: shown(path) }) }
 }
 
 /// The name of a file for messages.
@@ -130,21 +146,28 @@ pub(crate) fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
 }
 
 /// Reads the lines of a run; of several runs in one file, each counts for the queries after it.
-fn jsonl(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
+fn jsonl(bytes: &[u8], entries: &mut Vec<Entry>) -> Result<(), Wrong> {
     let mut said = None;
     for (number, line) in lines(bytes) {
         let wrong = |problem: String| (number, problem);
         let line: Line = serde_json::from_slice(line).map_err(|error| {
-            let text = error.to_string();
-            // The line is one of the file, not that of the JSON text.
-            let what = text.split(" at line ").next().unwrap_or_default();
-            wrong(format!("expected a line of `mediant run --format jsonl`: {what}"))
+            wrong(format!("expected a line of `mediant run --format jsonl`: {}", json_problem(&error)))
         })?;
         match line {
-            Line::Run(run) => said = Some(run.setup().map_err(wrong)?),
+            Line::Run(run) => {
+                said = Some(run.setup().map_err(wrong)?);
+                entries.push(Entry::Run);
+            }
+            Line::Edit(_) if said.is_some_and(|said: RunSetup| said.grounds) => {
+                return Err(wrong(
+                    "a run with --grounds has no edits: they do not say which ground".to_owned(),
+                ));
+            }
+            Line::Edit(edit) => entries.push(Entry::Edit(number, edit.cells().map_err(wrong)?)),
             Line::Query { index, path } if !path.is_empty() => {
                 let waypoints = path.into_iter().map(Vertex::from).collect();
-                paths.push(Listed { index, waypoints: Waypoints::Vertices(waypoints), said });
+                let waypoints = Waypoints::Vertices(waypoints);
+                entries.push(Entry::Path(Listed { index, waypoints, said }));
             }
             Line::Query { .. } | Line::Other => {}
         }
@@ -153,7 +176,7 @@ fn jsonl(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
 }
 
 /// Reads the rows of one path.
-fn csv(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
+fn csv(bytes: &[u8], entries: &mut Vec<Entry>) -> Result<(), Wrong> {
     let mut columns = (0, 1);
     let mut places = Vec::new();
     for ((number, line), row) in lines(bytes).zip(0..) {
@@ -182,7 +205,8 @@ fn csv(bytes: &[u8], paths: &mut Vec<Listed>) -> Result<(), Wrong> {
         places.push((number, place(x, y)));
     }
     if !places.is_empty() {
-        paths.push(Listed { index: 0, waypoints: Waypoints::Places(places), said: None });
+        let waypoints = Waypoints::Places(places);
+        entries.push(Entry::Path(Listed { index: 0, waypoints, said: None }));
     }
     Ok(())
 }
@@ -200,8 +224,10 @@ mod tests {
     fn places(text: &str) -> Vec<Place> {
         let mut paths = Vec::new();
         csv(text.as_bytes(), &mut paths).expect(text);
-        match paths.remove(0).waypoints {
-            Waypoints::Places(places) => places.into_iter().map(|(_, place)| place).collect(),
+        match paths.remove(0) {
+            Entry::Path(Listed { waypoints: Waypoints::Places(places), .. }) => {
+                places.into_iter().map(|(_, place)| place).collect()
+            }
             other => panic!("{other:?}"),
         }
     }

@@ -1,17 +1,18 @@
 //! `mediant check`: whether paths hold on a map, and where not.
 
-use std::{io, io::Write};
+use std::{io, io::Write, sync::Arc};
 
 use mediant::{K, Motion, Path, PlacementKind, Space};
-use mediant_formats::Ground;
+use mediant_formats::{Ground, PlacedPatch};
 use serde::Serialize;
 
 use crate::{
     args::{CheckArgs, Format},
     check::{
         fault::Fault,
-        file::{Listed, RunSetup, Waypoints, read, shown},
+        file::{Entry, Listed, RunSetup, Waypoints, read, shown},
     },
+    edit::check_place,
     failure::{Ending, Failure},
     map::NamedMap,
     terminal::{
@@ -83,35 +84,97 @@ impl Rules {
     }
 }
 
+/// Checks one path after another, on a map that edits change.
+struct Checker<'a> {
+    args: &'a CheckArgs,
+    map: NamedMap,
+    is_edited: bool,
+    /// The space of the last path, with its rules and the ground of its start.
+    ready: Option<((Rules, Option<Ground>), Space)>,
+}
+
+impl<'a> Checker<'a> {
+    fn new(args: &'a CheckArgs, map: &NamedMap) -> Self {
+        Self { args, map: map.clone(), is_edited: false, ready: None }
+    }
+
+    /// Begins a run, on the map as it was read.
+    fn begin(&mut self, map: &NamedMap) {
+        if self.is_edited {
+            *self = Self::new(self.args, map);
+        }
+    }
+
+    /// Follows an edit. The map of an agent with a radius is made anew for the next path.
+    fn edit(&mut self, cells: &PlacedPatch) -> Result<(), Failure> {
+        let (at, blocked) = (cells.rectangle(), |x, y| cells.is_blocked(x, y));
+        let ready = self.ready.take().filter(|_| self.args.map.radius.is_none());
+        if let Some((of, space)) = ready {
+            self.ready = Some((of, space.edit(at, blocked)?.after().clone()));
+        }
+        let grid = match &self.ready {
+            Some((_, space)) => Arc::clone(space.map().grid()),
+            None => Arc::new(self.map.ground.with_rectangle(at, blocked)),
+        };
+        self.map.take_edited(&grid, &grid);
+        self.is_edited = true;
+        Ok(())
+    }
+
+    /// The first fault of a path in a file.
+    fn fault(&mut self, file: &str, path: &Listed) -> Result<Option<Fault>, Failure> {
+        let rules = Rules::new(self.args, path.said)?;
+        let waypoints = vertices(file, path, rules, &self.map)?;
+        let start = waypoints.first().filter(|_| by_ground(path));
+        let ground = start.map(|&start| self.map.ground_at(rules.motion.rules.placement(), start));
+        let space = match self.ready.take() {
+            Some((of, space)) if of == (rules, ground) => space,
+            _ => {
+                let on_ground = ground.map(|ground| self.map.on_ground(ground)).transpose()?;
+                rules.space(self.args, on_ground.unwrap_or_else(|| self.map.clone()))?
+            }
+        };
+        let fault = Fault::of(&Path::new(waypoints), &space, rules.over);
+        self.ready = Some(((rules, ground), space));
+        Ok(fault)
+    }
+}
+
+/// Whether a path is on the ground of its start.
+fn by_ground(path: &Listed) -> bool {
+    path.said.is_some_and(|said| said.grounds)
+}
+
 /// Runs the command.
 pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let files = args.paths.iter().map(|path| Ok((shown(path).display().to_string(), read(path)?)));
     let files = files.collect::<Result<Vec<_>, Failure>>()?;
-    let by_ground = |path: &Listed| path.said.is_some_and(|said| said.grounds);
-    let of_grounds = files.iter().find(|(_, listed)| listed.iter().any(by_ground));
+    let is_by_ground = |entry: &Entry| matches!(entry, Entry::Path(path) if by_ground(path));
+    let of_grounds = files.iter().find(|(_, entries)| entries.iter().any(is_by_ground));
     let map =
         if of_grounds.is_some() { NamedMap::load_with_tiles(&args.map)? } else { NamedMap::load(&args.map)? };
     if let Some((file, _)) = of_grounds.filter(|_| !map.has_tiles()) {
         return Err(Failure::NoGrounds { path: file.into(), map: map.name });
     }
-    let mut ready: Option<((Rules, Option<Ground>), Space)> = None;
     let (mut paths, mut broken) = (0_u64, 0_u64);
-    for (file, listed) in &files {
-        for path in listed {
-            let rules = Rules::new(args, path.said)?;
-            let waypoints = vertices(file, path, rules, &map)?;
-            let placement = rules.motion.rules.placement();
-            let start = waypoints.first().filter(|_| by_ground(path));
-            let ground = start.map(|&start| map.ground_at(placement, start));
-            let space = match ready.take() {
-                Some((of, space)) if of == (rules, ground) => space,
-                _ => {
-                    let on_ground = ground.map(|ground| map.on_ground(ground)).transpose()?;
-                    rules.space(args, on_ground.unwrap_or_else(|| map.clone()))?
+    let mut checker = Checker::new(args, &map);
+    for (file, entries) in &files {
+        checker.begin(&map);
+        for entry in entries {
+            let path = match entry {
+                Entry::Path(path) => path,
+                Entry::Run => {
+                    checker.begin(&map);
+                    continue;
+                }
+                Entry::Edit(line, cells) => {
+                    let wrong = |problem| Failure::PathFile { path: file.into(), line: *line, problem };
+                    check_place(cells, &map.ground).map_err(wrong)?;
+                    checker.edit(cells)?;
+                    continue;
                 }
             };
-            let fault = Fault::of(&Path::new(waypoints), &space, rules.over);
-            ready = Some(((rules, ground), space));
+            let fault = checker.fault(file, path)?;
             paths += 1;
             broken += u64::from(fault.is_some());
             match (args.format, fault) {

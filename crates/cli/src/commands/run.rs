@@ -55,6 +55,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         map: &map,
         scenario: queries.scenario_name(),
         queries: queries.len(),
+        edits: matches!(queries, Queries::Timeline { .. }).then(|| queries.edits().len()),
         query: &query,
         setup,
         choice: *choice,

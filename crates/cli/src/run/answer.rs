@@ -9,7 +9,7 @@ use mediant::{
     search::Counters,
 };
 
-use super::{queries::Item, query_error::explain};
+use super::{queries::Item, query_error::explain, timeline::Edit};
 use crate::{args::QueryArgs, map::NamedMap};
 
 /// The head of a run: the map, the setup, and the time and memory of its preparation.
@@ -19,6 +19,8 @@ pub(crate) struct RunHead<'r> {
     pub(crate) scenario: Option<&'r str>,
     /// The number of queries.
     pub(crate) queries: usize,
+    /// The number of edits; `None` on a map that does not change.
+    pub(crate) edits: Option<usize>,
     pub(crate) query: &'r QueryArgs,
     pub(crate) setup: Setup,
     /// The choice of `auto`; `None` for an engine that was named.
@@ -38,6 +40,17 @@ pub(crate) struct RunHead<'r> {
     pub(crate) preparation: Duration,
     /// The memory of the search space and the index, beyond the map.
     pub(crate) memory_bytes: u64,
+}
+
+/// An edit with its time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EditRecord<'r> {
+    pub(crate) edit: &'r Edit,
+    /// The number of cells that it altered.
+    pub(crate) cells: u64,
+    /// The time of the change that it ends: of the map, the search space, the index and the planner. 0 if
+    /// more edits belong to it, and for the map that the run begins with.
+    pub(crate) nanos: u64,
 }
 
 /// A query with its answer.

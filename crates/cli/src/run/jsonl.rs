@@ -1,7 +1,8 @@
 //! `--format jsonl`: one JSON object a line. Scripts rely on its keys and their meaning.
 //!
 //! First a [`RunLine`] (`"type": "run"`), then a [`QueryLine`] (`"query"`) for each query in the order of the
-//! scenario, last a [`Summary`] (`"summary"`). Lengths are in cells, times in nanoseconds.
+//! scenario, on a map that changes with an [`EditLine`] (`"edit"`) for each edit between them, last a
+//! [`Summary`] (`"summary"`). Lengths are in cells, times in nanoseconds.
 
 use std::{
     collections::BTreeMap,
@@ -19,7 +20,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{
-    answer::{Found, QueryAnswer, QueryRecord, RunHead},
+    answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead},
     report::Report,
     summary::Summary,
 };
@@ -50,6 +51,12 @@ impl<'s> Jsonl<'s> {
         self.screen.write_all(b"\n")
     }
 
+    /// Writes a line that comes when its query or its edit is done.
+    fn event(&mut self, record: &impl Serialize) -> io::Result<()> {
+        self.line(record)?;
+        if self.flushed.elapsed() >= self.patience { self.flush() } else { Ok(()) }
+    }
+
     fn flush(&mut self) -> io::Result<()> {
         self.screen.flush()?;
         self.flushed = Instant::now();
@@ -65,6 +72,10 @@ impl Report for Jsonl<'_> {
         self.flush()
     }
 
+    fn edit(&mut self, record: &EditRecord<'_>) -> io::Result<()> {
+        self.event(&EditLine::from(record))
+    }
+
     fn query(&mut self, record: QueryRecord) -> io::Result<()> {
         let mut line = QueryLine::from(&record);
         if self.only_lengths {
@@ -73,8 +84,7 @@ impl Report for Jsonl<'_> {
         line.world = self.world.zip(record.path()).map(|((frame, placement), path)| {
             path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
         });
-        self.line(&line)?;
-        if self.flushed.elapsed() >= self.patience { self.flush() } else { Ok(()) }
+        self.event(&line)
     }
 
     fn end(&mut self, summary: &Summary) -> io::Result<()> {
@@ -109,6 +119,9 @@ struct RunLine<'r> {
     /// The scenario's file name.
     scenario: Option<&'r str>,
     queries: usize,
+    /// The number of edits; only on a map that changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    edits: Option<usize>,
     /// Each wish that was named, by the name of its option, with `_` for `-`; `timeout_ms` for `--timeout`.
     #[serde(flatten)]
     wishes: WishFields,
@@ -218,6 +231,7 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
             moved: run.query.moved,
             scenario: run.scenario,
             queries: run.queries,
+            edits: run.edits,
             wishes: run.query.into(),
             setup: setup.to_string(),
             engine: run.choice.map_or(setup.engine.kind(), |_| run.searched_by).name(),
@@ -255,6 +269,43 @@ fn json_of(option: &EngineOption, value: Option<OptionValue>) -> (String, Value)
         Some(value) => value.to_string().into(),
     };
     (option.name.replace('-', "_"), value)
+}
+
+/// The line of an edit.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename = "edit")]
+struct EditLine {
+    /// The column and the row of the first cell.
+    x: u32,
+    y: u32,
+    /// `#` is blocked, `.` free.
+    rows: Vec<String>,
+    /// The number of cells that it altered.
+    cells: u64,
+    /// The time of the change that it ends: of the map, the search space, the index and the planner.
+    nanos: u64,
+    /// That the next edit belongs to the same change, whose time is told with the last.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    more: bool,
+    /// That it makes the map that the run begins with out of one without obstacles: for who replays the run.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    initial: bool,
+}
+
+impl From<&EditRecord<'_>> for EditLine {
+    fn from(record: &EditRecord<'_>) -> Self {
+        let &EditRecord { edit, cells, nanos } = record;
+        let text = |row: &[bool]| row.iter().map(|&blocked| if blocked { '#' } else { '.' }).collect();
+        Self {
+            x: edit.cells.x,
+            y: edit.cells.y,
+            rows: edit.cells.patch.rows().map(text).collect(),
+            cells,
+            nanos,
+            more: edit.more,
+            initial: edit.initial,
+        }
+    }
 }
 
 /// The outcome of a query, in a word.
@@ -304,8 +355,8 @@ struct QueryLine<'a> {
     /// The sum of the path's turning angles, in degrees (Hammoud 2023); `null` without a path, and with
     /// `--distance`.
     smoothness: Option<f64>,
-    /// The length that the scenario gives: optimal for k = 3 at centers under `never`. `null` without a
-    /// scenario.
+    /// The length that the scenario gives: optimal for k = 3 at centers under `never`; -1 if it says that
+    /// there is no path. `null` without a scenario.
     reference: Option<f64>,
     /// If found, the certificate: no path at any angle between its ends under the same rules is shorter. If
     /// stopped, no path of the engine's kind between the ends that were asked for is shorter: none over N(k),

@@ -11,4 +11,5 @@ pub(crate) mod searchers;
 pub(crate) mod session;
 pub(crate) mod summary;
 pub(crate) mod table;
+pub(crate) mod timeline;
 pub(crate) mod trace;

@@ -5,6 +5,8 @@ use std::path::Path;
 use mediant::{Ends, PlacementKind, Vertex, grid::Grid, search::End};
 use mediant_formats::{Instance, Scenario};
 
+use super::timeline::{Edit, Timeline};
+
 use crate::{
     args::{QueryArgs, RunArgs, parse_pair},
     builtin::is_builtin,
@@ -22,14 +24,19 @@ pub(crate) struct Item {
     /// Its start and goal; of several the first.
     pub(crate) ends: Ends,
     /// The length that the scenario gives, if it knows it: optimal for k = 3 at centers under `never`.
+    /// [`NO_PATH`] if it knows that there is no path.
     pub(crate) reference: Option<f64>,
 }
 
-/// A single query, or some of a scenario's or of a list of pairs.
+/// The length of a path that is known not to be there, as scenarios of maps that change write it.
+pub(crate) const NO_PATH: f64 = -1.0;
+
+/// A single query, or some of a scenario's, of a list of pairs, or of a timeline.
 pub(crate) enum Queries {
     Single(Ends),
     Pairs { name: String, pairs: Vec<Ends>, every: usize, limit: usize },
     Scenario { name: String, scenario: Scenario, every: usize, limit: usize },
+    Timeline { name: String, timeline: Timeline },
 }
 
 impl Queries {
@@ -46,11 +53,19 @@ impl Queries {
             let pairs = read_pairs(path, map, placement)?;
             return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
         }
+        if let Some(path) = &args.edits {
+            let timeline = Timeline::read(path, &map.ground)?.take(every, limit);
+            return Ok(Self::Timeline { name: file_name(&shown(path)), timeline });
+        }
         let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {
             (None, Some(&from), Some(&to)) => return Ok(Self::Single(Ends::new(from, to))),
             (Some(path), ..) => path,
             (None, ..) if is_builtin(&args.map.map) => &args.map.map,
-            (None, ..) => return Err(Failure::NoQueries),
+            (None, ..) => {
+                let scenario = map.scenario.as_ref().ok_or(Failure::NoQueries)?;
+                let timeline = Timeline::of_scenario(scenario, &map.ground).take(every, limit);
+                return Ok(Self::Timeline { name: map.name.clone(), timeline });
+            }
         };
         let (name, scenario) = load_scenario(path)?;
         scenario.check_map(&map.grid, &map.name)?;
@@ -67,7 +82,17 @@ impl Queries {
     pub(crate) fn scenario_name(&self) -> Option<&str> {
         match self {
             Self::Single(_) => None,
-            Self::Pairs { name, .. } | Self::Scenario { name, .. } => Some(name),
+            Self::Pairs { name, .. } | Self::Scenario { name, .. } | Self::Timeline { name, .. } => {
+                Some(name)
+            }
+        }
+    }
+
+    /// The edits between the queries.
+    pub(crate) fn edits(&self) -> &[Edit] {
+        match self {
+            Self::Timeline { timeline, .. } => &timeline.edits,
+            _ => &[],
         }
     }
 
@@ -79,6 +104,7 @@ impl Queries {
             Self::Scenario { scenario, every, limit, .. } => {
                 scenario.instances().len().div_ceil(*every).min(*limit)
             }
+            Self::Timeline { timeline, .. } => timeline.queries.len(),
         }
     }
 
@@ -90,16 +116,24 @@ impl Queries {
             Self::Scenario { scenario, every, limit, .. } => {
                 (None, &[], scenario.instances(), *every, *limit)
             }
+            Self::Timeline { .. } => (None, &[], &[], 1, 0),
+        };
+        let of_timeline: &[Item] = match self {
+            Self::Timeline { timeline, .. } => &timeline.queries,
+            _ => &[],
         };
         let single = single.into_iter().map(|ends| Item { index: 0, ends, reference: None });
         let pairs = pairs.iter().enumerate().step_by(every).take(limit);
         let pairs = pairs.map(|(index, &ends)| Item { index, ends, reference: None });
         let instances = instances.iter().enumerate().step_by(every).take(limit);
-        single.chain(pairs).chain(instances.map(|(index, instance)| Item {
-            index,
-            ends: Ends::new(instance.start, instance.goal),
-            reference: instance.known_optimal(),
-        }))
+        single
+            .chain(pairs)
+            .chain(instances.map(|(index, instance)| Item {
+                index,
+                ends: Ends::new(instance.start, instance.goal),
+                reference: instance.known_optimal(),
+            }))
+            .chain(of_timeline.iter().copied())
     }
 }
 

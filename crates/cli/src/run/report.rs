@@ -5,15 +5,18 @@ use std::io;
 use mediant::{Choice, Engine, FiniteK, K, Motion};
 
 use super::{
-    answer::{QueryRecord, RunHead},
+    answer::{EditRecord, QueryRecord, RunHead},
     summary::Summary,
 };
 use crate::terminal::numbers::grouped;
 
-/// Reports a run: first the run, then its queries in order, last their summary.
+/// Reports a run: first the run, then its queries and edits in order, last their summary.
 pub(crate) trait Report {
     /// Reports the head of the run.
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()>;
+
+    /// Reports an edit.
+    fn edit(&mut self, record: &EditRecord<'_>) -> io::Result<()>;
 
     /// Reports a query and its answer.
     fn query(&mut self, record: QueryRecord) -> io::Result<()>;

@@ -2,10 +2,13 @@
 
 use std::time::{Duration, Instant};
 
-use mediant::{Choice, Demand, Index, PlacementKind, Planner, Setup, Space, Vertex};
+use mediant::{Change, Choice, Demand, Index, PlacementKind, Planner, Setup, Space, Vertex};
 use mediant_formats::Ground;
 
-use super::queries::Queries;
+use super::{
+    queries::Queries,
+    timeline::{Edit, Timeline},
+};
 use crate::{
     args::{Asked, RunArgs},
     failure::Failure,
@@ -48,7 +51,7 @@ impl Searchers {
     ) -> Result<Self, Failure> {
         let placement = asked.motion.rules.placement();
         // For all grounds together, so that one engine searches them all.
-        let demand = Demand::Paths(queries.len() as u64);
+        let demand = demand(queries);
         let mut preparation = Duration::ZERO;
         let mut make = |ground: Option<Ground>| {
             let map = match ground {
@@ -88,9 +91,56 @@ impl Searchers {
         other.unwrap_or(&mut self.first)
     }
 
+    /// Follows a change of the map, and tells the time of it. Only runs on one ground have edits.
+    pub(crate) fn follow(&mut self, change: &[Edit]) -> Result<Duration, Failure> {
+        self.first.follow(change)
+    }
+
     /// The memory of the search spaces and the indexes, beyond the maps.
     pub(crate) fn memory_bytes(&self) -> u64 {
         let all = self.others.iter().chain([&self.first]);
         all.map(|searcher| searcher.space.memory_bytes() + searcher.index.memory_bytes()).sum()
     }
+}
+
+impl Searcher {
+    /// Takes the index and the planner to the map after a change. The time has all of it, but for the
+    /// reference.
+    fn follow(&mut self, edits: &[Edit]) -> Result<Duration, Failure> {
+        let begin = Instant::now();
+        let mut change = Change::new(&self.space);
+        if let Some(mut disc) = self.map.disc.take() {
+            for Edit { cells, .. } in edits {
+                disc = disc.edit(cells.rectangle(), |x, y| cells.is_blocked(x, y))?;
+            }
+            change = Change::to(&self.space, disc.map());
+            self.map.disc = Some(disc);
+        } else {
+            for Edit { cells, .. } in edits {
+                change = change.edit(cells.rectangle(), |x, y| cells.is_blocked(x, y))?;
+            }
+        }
+        let index = self.index.repair(&change)?;
+        self.planner.follow(&index)?;
+        self.index = index;
+        self.space = change.after().clone();
+        let grid = self.space.map().grid();
+        let ground = self.map.disc.as_ref().map_or(grid, |disc| disc.obstacles().grid());
+        self.map.take_edited(&ground.clone(), grid);
+        // An edit takes the memory of a version that nobody holds any more.
+        drop(change);
+        let time = begin.elapsed();
+        if let Some(planner) = &mut self.any_angle {
+            let index = planner.index().repair(&Change::to(planner.index().space(), self.space.map()))?;
+            planner.follow(&index)?;
+        }
+        Ok(time)
+    }
+}
+
+/// The demand on an engine. An index that is prepared anew after each change has to pay until the next one.
+fn demand(queries: &Queries) -> Demand {
+    let (paths, changes) = (queries.len() as u64, Timeline::changes(queries.edits()));
+    let stretches = 1 + changes.filter(|change| change.iter().all(|edit| !edit.initial)).count() as u64;
+    Demand::Paths(if stretches == 1 { paths } else { paths.min((paths / stretches).max(2)) })
 }

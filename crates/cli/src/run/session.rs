@@ -3,12 +3,13 @@
 use mediant::{Answer, Ends, Path, Planner, Query, Vertex};
 
 use super::{
-    answer::{Found, QueryAnswer, QueryRecord, RunHead, Unanswered, ends},
+    answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead, Unanswered, ends},
     measure::Measured,
     queries::{Item, Queries},
     report::Report,
     searchers::{Searcher, Searchers},
     summary::{Summary, Tally},
+    timeline::{Edit, Timeline, altered},
     trace::TraceFile,
 };
 use crate::{failure::Failure, terminal::progress::Progress};
@@ -32,7 +33,7 @@ pub(crate) struct Finished {
 }
 
 impl Session<'_> {
-    /// Answers all queries and reports the answers.
+    /// Answers all queries, follows the edits between them, and reports both.
     pub(crate) fn answer_all(
         mut self,
         searchers: &mut Searchers,
@@ -41,7 +42,11 @@ impl Session<'_> {
         self.report.begin(run)?;
         let mut tally = Tally::new(&run.query.wishes);
         let (mut first_error, mut path) = (None, Vec::new());
-        for item in self.queries.iter() {
+        let mut changes = Timeline::changes(self.queries.edits()).peekable();
+        for (number, item) in self.queries.iter().enumerate() {
+            while let Some(change) = changes.next_if(|change| change[0].after <= number) {
+                self.change(searchers, change, &mut tally)?;
+            }
             let record = self.answer(searchers.of(item.ends.start), run, item)?;
             tally.add(&record);
             if let Err(error) = &record.answer {
@@ -52,10 +57,33 @@ impl Session<'_> {
             self.report.query(record)?;
             self.progress.tick();
         }
+        for change in changes {
+            self.change(searchers, change, &mut tally)?;
+        }
         self.progress.clear();
         let summary = tally.finish();
         self.report.end(&summary)?;
         Ok(Finished { summary, first_error, path })
+    }
+
+    /// Follows one change of the map.
+    fn change(
+        &mut self,
+        searchers: &mut Searchers,
+        change: &[Edit],
+        tally: &mut Tally,
+    ) -> Result<(), Failure> {
+        let altered = altered(change, &searchers.first().map.ground);
+        let is_there_already = change.iter().any(|edit| edit.initial);
+        let nanos = if is_there_already { 0 } else { searchers.follow(change)?.as_nanos() as u64 };
+        if !is_there_already {
+            tally.add_change(change.len(), altered.iter().sum(), nanos);
+        }
+        for (edit, cells) in change.iter().zip(altered) {
+            let nanos = if edit.more { 0 } else { nanos };
+            self.report.edit(&EditRecord { edit, cells, nanos })?;
+        }
+        Ok(())
     }
 
     /// Answers one query.

@@ -44,6 +44,22 @@ pub(crate) struct Summary {
     pub(crate) ratio: Option<Ratios>,
     /// `null` if no answered query can be compared with a reference.
     pub(crate) reference: Option<References>,
+    /// Only on a map that changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) edits: Option<Edits>,
+}
+
+/// The edits of a run, and the times of the changes that they make.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct Edits {
+    pub(crate) edits: u64,
+    /// Each of one edit or more.
+    pub(crate) changes: u64,
+    /// The number of cells that were altered.
+    pub(crate) cells: u64,
+    pub(crate) total_nanos: u64,
+    pub(crate) mean_nanos: f64,
+    pub(crate) max_nanos: u64,
 }
 
 /// Ratios to the lengths of the shortest any-angle paths.
@@ -97,6 +113,7 @@ pub(crate) struct Tally {
     worst: (f64, usize),
     compared_cost: f64,
     reference: f64,
+    edits: Option<Edits>,
 }
 
 impl Tally {
@@ -104,6 +121,17 @@ impl Tally {
     pub(crate) fn new(wishes: &Wishes) -> Self {
         let (nearest, stopped) = (wishes.nearest.then_some(0), wishes.has_limits().then_some(0));
         Self { nearest, stopped, ..Self::default() }
+    }
+
+    /// Adds a change of the map.
+    pub(crate) fn add_change(&mut self, edits: usize, cells: u64, nanos: u64) {
+        let sum = self.edits.get_or_insert_default();
+        sum.edits += edits as u64;
+        sum.changes += 1;
+        sum.cells += cells;
+        sum.total_nanos += nanos;
+        sum.max_nanos = sum.max_nanos.max(nanos);
+        sum.mean_nanos = sum.total_nanos as f64 / sum.changes as f64;
     }
 
     /// Adds an answer.
@@ -134,7 +162,7 @@ impl Tally {
         self.bound.add(index, found.map(Found::bound));
         self.ratio.add(index, found.and_then(Found::ratio));
         if let Some(reference) = record.item.reference.filter(|_| is_comparable(record)) {
-            self.compare(index, cost, reference);
+            self.compare(index, cost, reference.max(0.0));
         }
     }
 
@@ -186,6 +214,7 @@ impl Tally {
             bound: self.bound.finish(),
             ratio: self.ratio.finish(),
             reference: (self.compared > 0).then_some(references),
+            edits: self.edits,
         }
     }
 }

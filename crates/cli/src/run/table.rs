@@ -5,9 +5,10 @@ use std::io::{self, Write};
 use mediant::{Engine, Limit, Path, PlacementKind, Stopped, Vertex, files::WorldFrame, options::OptionValue};
 
 use super::{
-    answer::{Found, QueryAnswer, QueryRecord, RunHead},
+    answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead},
+    queries::NO_PATH,
     report::{Report, by_auto, falls_back, k_in_words},
-    summary::{Ratios, References, Summary},
+    summary::{Edits, Ratios, References, Summary},
 };
 use crate::terminal::{
     numbers::{count, excess, grouped, percent_over, time},
@@ -130,7 +131,9 @@ impl<'s> TableReport<'s> {
         }
         if self.from_scenario {
             let reference = row.item.reference;
-            cells.push(reference.map_or_else(String::new, |reference| format!("{reference:.4}")));
+            cells.push(reference.map_or_else(String::new, |reference| {
+                if reference == NO_PATH { "none".to_owned() } else { format!("{reference:.4}") }
+            }));
         }
         if row.answer.is_err() {
             return cells;
@@ -193,6 +196,15 @@ impl<'s> TableReport<'s> {
             format!("every path is a shortest one at any angle ({source})")
         };
         self.fact(name, &text)
+    }
+
+    /// Writes how many changes of the map there were, and their times.
+    fn changes(&mut self, edits: &Edits) -> io::Result<()> {
+        let &Edits { edits, changes, cells, mean_nanos, max_nanos, .. } = edits;
+        let by = if edits == changes { String::new() } else { format!(" by {} edits", grouped(edits)) };
+        let cells = count(cells, "cell", "cells");
+        let [mean, max] = [mean_nanos, max_nanos as f64].map(time);
+        self.fact("changes", &format!("{}{by}, {cells} altered: mean {mean}, max {max}", grouped(changes)))
     }
 
     /// Writes how the costs compare with the scenario's lengths.
@@ -269,6 +281,10 @@ impl Report for TableReport<'_> {
         writeln!(self.screen)
     }
 
+    fn edit(&mut self, _: &EditRecord<'_>) -> io::Result<()> {
+        Ok(())
+    }
+
     fn query(&mut self, record: QueryRecord) -> io::Result<()> {
         let is_error = record.answer.is_err();
         if self.rows.len() < Self::ROWS && (is_error || self.queries <= Self::ROWS) {
@@ -289,6 +305,9 @@ impl Report for TableReport<'_> {
         if !self.rows.is_empty() {
             writeln!(self.screen)?;
         }
+        if let Some(edits) = &summary.edits {
+            self.changes(edits)?;
+        }
         let &Summary { queries, found, nearest, unreachable, stopped, errors, .. } = summary;
         let counts = [
             (Some(found), "found"),
@@ -306,6 +325,11 @@ impl Report for TableReport<'_> {
         let [median, mean, max] =
             [summary.median_nanos as f64, summary.mean_nanos, summary.max_nanos as f64].map(time);
         self.fact("time", &format!("median {median}, mean {mean}, max {max}"))?;
+        if let Some(edits) = &summary.edits {
+            let (changes, paths) = (edits.total_nanos, summary.total_nanos);
+            let [changes, paths, all] = [changes, paths, changes + paths].map(|nanos| time(nanos as f64));
+            self.fact("in all", &format!("changes {changes}, queries {paths}, together {all}"))?;
+        }
         let [expanded, generated] = [summary.mean_expanded, summary.mean_generated].map(mean_count);
         let updated = mean_count(summary.mean_updated);
         self.fact("nodes", &format!("mean {expanded} expanded, {generated} generated, {updated} updated"))?;

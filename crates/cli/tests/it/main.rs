@@ -3,9 +3,11 @@
 mod any_angle;
 mod auto;
 mod calls;
+mod changing;
 mod check;
 mod common;
 mod convert;
+mod edits;
 mod errors;
 mod grounds;
 mod hierarchy;

@@ -305,7 +305,15 @@ fn the_examples_of_the_help_run() {
     files.add("pairs.csv", "1,11,40,30\n");
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(mediant(&["build", &map, "--engine", "subgoal", "-o", &index]).status, Some(0));
-    run_examples(&files, "run", 15);
+    let query = "{\"type\":\"query\",\"start\":[1,11],\"goal\":[40,30]}\n";
+    let edit = "{\"type\":\"edit\",\"x\":9,\"y\":0,\"rows\":[\"..#\"]}\n";
+    files.add("timeline.jsonl", [query, edit, query].concat());
+    files.add("yard.patch", "type patch\npatches 1\npatch 0\nheight 1\nwidth 1\nmap\n@\n");
+    files.add(
+        "changing.scen",
+        "version 2\nheight 2\nwidth 3\ncost 1 octile\npatch yard.patch\ncommands\nP 0 0 1 0\nQ 0 0 0 2 0 4\n",
+    );
+    run_examples(&files, "run", 17);
 }
 
 #[test]
