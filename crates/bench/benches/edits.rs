@@ -82,7 +82,7 @@ fn main() {
             let rng = &mut Rng::new(7);
             let map = if name == "noise" { noise(rng, side, side, 20) } else { rooms(rng, side) };
             let map = Map::from(map);
-            for engine in [E::AStar, E::Canonical, E::JpsBlock, E::Anya, E::Hpa, E::Chpa] {
+            for engine in [E::AStar, E::Canonical, E::JpsBlock, E::JpsPlus, E::Anya, E::Hpa, E::Chpa] {
                 measure(name, &map, engine, edits);
             }
         }

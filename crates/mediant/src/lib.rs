@@ -104,10 +104,11 @@
 //! | `astar`, `dijkstra`, `wavefront`, `theta`, `lazy-theta` | the space alone | paths |
 //! | `canonical`, `jps` | the space alone up to k = 3; above, distances to obstacles are found anew | paths |
 //! | `jps-block` | where jumps stop, and dead ends | costs |
+//! | `jps-plus` | likewise, and the lists of jumps that lead there | costs |
 //! | `anya` | dead ends, and rooms behind single doors | costs |
 //! | `hpa`, `chpa` | clusters, segments | bytes |
 //! | `subgoal` | where they prove the answer, labels or graph of the map before; elsewhere another engine | costs |
-//! | `jps-plus`, `subgoal-theta` | nothing: they are prepared anew | bytes |
+//! | `subgoal-theta` | nothing: it is prepared anew | bytes |
 //!
 //! Labels of the map before prove 94 % of the answers and more after an edit of 10 × 10 cells (the table in
 //! `docs/performance.md`). [`Index::finish`] makes them anew, where and when you want it: on another thread,

@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
+#[cfg(feature = "all-engines")]
+use mediant_grid::Change;
 use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement};
 use mediant_search::JumpTable;
+#[cfg(feature = "all-engines")]
+use mediant_search::Pruning;
 
 use super::{
     Source,
@@ -68,6 +72,17 @@ impl<P: Placement> EngineFinder<P> for Arc<JumpTable> {
 
     fn memory_bytes(&self) -> usize {
         JumpTable::memory_bytes(self)
+    }
+
+    /// The light build leaves this out, as it does for the blocks of words.
+    #[cfg(feature = "all-engines")]
+    fn repaired(
+        &self,
+        (graph, pruning): (&GridGraph<P>, &Pruning<P>),
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Error> {
+        Ok(Some(Self::new(JumpTable::repaired(self, graph, pruning, change, interrupt)?)))
     }
 
     fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {

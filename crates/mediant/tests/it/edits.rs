@@ -151,15 +151,15 @@ fn is_repaired(setup: Setup) -> bool {
     use Engine as E;
     match setup.engine.kind() {
         E::AStar | E::Dijkstra | E::Wavefront | E::Theta | E::LazyTheta => true,
-        E::JpsBlock | E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
+        E::JpsBlock | E::JpsPlus | E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
         E::Jps | E::Canonical => setup.k() <= K::N8 || setup.engine.variant() == Some(Variant::Paper),
         _ => false,
     }
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
-/// large, and says how it came about. That of Anya may leave out less, and subgoals are those of the map
-/// before, but paths cost the same.
+/// large, and says how it came about. That of Anya may leave out less, JPS+ has room for more, and subgoals are
+/// those of the map before, but paths cost the same.
 #[test]
 fn repaired_indexes_are_as_good_as_new_ones() {
     let mut rng = Rng::new(16);
@@ -188,7 +188,8 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let (setup, is_same) = (index.setup(), index.identity() == space.identity());
                 *index = index.repair(&change).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let anew = setup.prepare(&space).expect("as before");
-                let by_cost = matches!(setup.engine.kind(), Engine::Anya | Engine::Subgoal);
+                let costs_alone =
+                    matches!(setup.engine.kind(), Engine::Anya | Engine::JpsPlus | Engine::Subgoal);
                 let is_repaired = is_repaired(setup);
                 let origin = match (is_same, is_repaired) {
                     (true, _) => Origin::Unchanged,
@@ -199,13 +200,19 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));
                 assert_eq!(index.identity(), space.identity());
-                assert!(by_cost || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
-                assert_eq!(index.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
+                assert!(costs_alone || index.memory_bytes() == anew.memory_bytes(), "{setup}, edit {edit}");
+                match index.to_bytes() {
+                    Ok(bytes) if costs_alone => {
+                        let read = space.index_from_bytes(bytes).expect("its bytes");
+                        assert_eq!(read.to_bytes().ok(), anew.to_bytes().ok(), "{setup}, edit {edit}");
+                    }
+                    bytes => assert_eq!(bytes.ok(), anew.to_bytes().ok(), "{setup}, edit {edit}"),
+                }
                 let (mut repaired, mut new) = (index.planner(), anew.planner());
                 for _ in 0..8 {
                     let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
                     let query = Ends::new(end(), end());
-                    if by_cost {
+                    if costs_alone {
                         let [found, known] = [&mut repaired, &mut new]
                             .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
                         let is_same = match (&found, &known) {

@@ -12,7 +12,7 @@ use super::{
     error::JumpError,
     finder::{JumpContext, JumpFinder},
     planes::JumpPlanes,
-    repair::{Repair, Stop},
+    repair::{Altered, Repair, Stop},
     to_goal::ToGoal,
 };
 use crate::{
@@ -85,23 +85,36 @@ impl BlockFinder {
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Self, JumpError> {
+        match self.followed(graph, pruning, change, interrupt)? {
+            Some((finder, _)) => Ok(finder),
+            None => Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning, interrupt)?)),
+        }
+    }
+
+    /// [`repaired`](Self::repaired), with what the change alters; `None` where a new finder would be prepared
+    /// sooner.
+    pub(super) fn followed<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<(Self, Altered)>, JumpError> {
         pruning.check(graph)?;
         let on = |grid: &Grid| Identity { map: Some(grid.id()), ..self.identity };
         self.identity.check(FINDER, ("the map before the change", on(change.before())))?;
         on(change.after()).check("the map after the change", ("the grid graph", graph.identity()))?;
         if change.before().id() == change.after().id() {
-            return Ok(self.clone());
+            return Ok(Some((self.clone(), Altered::default())));
         }
         let stops = (&*self.axial, &*self.diagonals, self.reach);
         let follow = |table| Repair::new(graph, table, stops, interrupt).follow(change);
         match pruning.table().map_or(Err(Stop::TooMuch), follow) {
-            Ok((axial, diagonals)) => Ok(Self {
-                identity: graph.identity(),
-                axial: Arc::new(axial),
-                diagonals: Arc::new(diagonals),
-                reach: self.reach,
-            }),
-            Err(Stop::TooMuch) => Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning, interrupt)?)),
+            Ok((axial, diagonals, altered)) => {
+                let (axial, diagonals) = (Arc::new(axial), Arc::new(diagonals));
+                Ok(Some((Self { identity: graph.identity(), axial, diagonals, reach: self.reach }, altered)))
+            }
+            Err(Stop::TooMuch) => Ok(None),
             Err(Stop::Interrupted(interrupted)) => Err(interrupted.into()),
         }
     }

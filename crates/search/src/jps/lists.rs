@@ -11,22 +11,26 @@
 //! even move; that is all of them, unless diagonal moves have forced successors. Jumps without a list are
 //! scanned: from the start, from dead ends, and those too long for a word.
 //!
+//! A list is found by two steps: a bit for each vertex says whether there is one, and its number among those
+//! of the same 64 vertices leads to where it starts. So a list can be replaced, and one can come or go, with
+//! nothing else moved ([`repair`]).
+//!
 //! On maps of games there is one list for 20 to 170 cells, of five to ten words. In noise there are so many
 //! that there are none: see [`VERTICES_A_LIST`].
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Vertex, VertexId};
+mod record;
+mod repair;
+mod stale;
+
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Versioned, Vertex, VertexId};
 use mediant_moves::Cost;
 
+pub(super) use self::record::Recorder;
 use super::{
-    DURING,
-    axial::JumpPointRule,
-    block_finder::BlockFinder,
-    dead_ends::{DeadEndRows, NearGoal},
-    finder::{JumpContext, JumpFinder, JumpRules, in_order},
-    to_goal::{ToGoal, cross},
+    DURING, axial::JumpPointRule, block_finder::BlockFinder, dead_ends::DeadEndRows, finder::JumpContext,
 };
 use crate::{
-    canonical::{Pruning, pattern_at, prunes},
+    canonical::prunes,
     successors::{ExpandedNode, KnownPath, Successor},
 };
 
@@ -45,24 +49,42 @@ pub(super) struct JumpLists {
     /// Differences from an odd move's index to those of the even moves beside it, and to its own.
     turns: [u8; 4],
     /// For each even move, by 64 vertices.
-    places: Vec<Place>,
+    places: Versioned<Place>,
     /// The places of a move.
     per_move: usize,
-    /// Where lists begin among the words, and where the last one ends.
-    starts: Vec<u32>,
+    /// Where lists begin among the words, for the lists of one place one after another.
+    starts: Versioned<u32>,
     /// Groups: a [`Group`], then its [`Jump`]s.
-    words: Vec<u32>,
+    words: Versioned<u32>,
+    size: Size,
 }
 
-/// Which of 64 vertices have a list, and how many lists come before.
+/// How much of the memory of lists is in use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Size {
+    /// The starts and words from here on were never in use.
+    starts: usize,
+    words: usize,
+    /// The starts and words of lists that there are.
+    live: usize,
+    /// The most of them; 0 where no jump is made.
+    most: usize,
+}
+
+/// Which of 64 vertices have a list, and where it is said where their lists start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Place {
     /// 64 bits, the lower half first: so that a place takes 12 bytes instead of 16.
     has: [u32; 2],
-    before: u32,
+    /// The place of the first of them among the starts.
+    first: u32,
 }
 
 impl Place {
+    const fn new(bits: u64, first: u32) -> Self {
+        Self { has: [bits as u32, (bits >> 32) as u32], first }
+    }
+
     #[inline]
     const fn bits(self) -> u64 {
         self.has[0] as u64 | (self.has[1] as u64) << 32
@@ -83,14 +105,17 @@ struct Group {
 }
 
 impl Group {
+    /// The bit of the last group of a list.
+    const LAST: u32 = 1 << 28;
+
     fn word(self) -> Option<u32> {
-        let fits = self.length <= MOST_STEPS && self.count < 1 << 16;
+        let fits = self.length <= MOST_STEPS && self.count < 1 << 15;
         fits.then_some(self.length | self.count << 13 | (self.index as u32) << 29)
     }
 
     #[inline]
     const fn of(word: u32) -> Self {
-        Self { index: (word >> 29) as usize, length: word & MOST_STEPS, count: word >> 13 & 0xffff }
+        Self { index: (word >> 29) as usize, length: word & MOST_STEPS, count: word >> 13 & 0x7fff }
     }
 }
 
@@ -143,17 +168,18 @@ struct Leg {
 impl JumpLists {
     /// Finds the jumps from all jump points that are no dead ends; none if they are too many.
     pub(super) fn new<P: Placement>(
-        graph: &GridGraph<P>,
-        pruning: &Pruning<P>,
-        blocks: &BlockFinder,
+        recorder: &Recorder<'_, P>,
         dead_ends: &DeadEndRows,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
+        let graph = recorder.graph;
         let vertices = graph.vertex_count();
         let most = if vertices <= FEW_VERTICES { usize::MAX } else { vertices / VERTICES_A_LIST };
-        // Where nothing is pruned, no jump is made.
-        if !prunes(graph) || has_more_jump_points(graph, dead_ends, most, interrupt)? {
-            return Ok(Self::default());
+        if !prunes(graph) {
+            return Ok(Self::of_no_jumps());
+        }
+        if has_more_jump_points(graph, dead_ends, most, interrupt)? {
+            return Ok(Self::none(Self::most_words(graph)));
         }
         let mut legs = [Leg::default(); 8];
         for (leg, step) in legs.iter_mut().zip(graph.steps()) {
@@ -162,39 +188,46 @@ impl JumpLists {
         }
         let turns = [graph.steps().len() as u8 - 1, 1, 0, 0];
         let per_move = vertices.div_ceil(64);
-        let places = vec![Place::default(); graph.steps().len() / 2 * per_move];
-        let mut lists = Self { legs, turns, places, per_move, ..Self::default() };
-        let recorder = Recorder { graph, pruning, blocks };
-        let most_words = Self::most_words(graph);
+        let mut places = vec![Place::default(); graph.steps().len() / 2 * per_move];
+        let (mut starts, mut words) = (Vec::new(), Vec::new());
+        let most = Self::most_words(graph);
         for (row, by) in rows_of_jumps(graph) {
             interrupt.check(DURING)?;
             for (number, node) in jump_points(graph, dead_ends, row, by).enumerate() {
                 interrupt.check_every(64, number, DURING)?;
-                let (start, id) = (lists.words.len(), node.id.index());
-                let is_said = recorder.record(&node, by, &mut lists.words).is_some();
-                if !is_said || lists.starts.len() + lists.words.len() + 2 > most_words {
-                    lists.words.truncate(start);
+                let (start, id) = (words.len(), node.id.index());
+                if recorder.record(&node, by, &mut words).is_none() {
                     continue;
                 }
-                lists.places[by / 2 * per_move + id / 64].has[id / 32 % 2] |= 1 << (id % 32);
-                lists.starts.push(start as u32);
+                if starts.len() + words.len() + 2 > most {
+                    words.truncate(start);
+                    continue;
+                }
+                places[by / 2 * per_move + id / 64].has[id / 32 % 2] |= 1 << (id % 32);
+                starts.push(start as u32);
             }
         }
-        if lists.words.is_empty() {
-            return Ok(Self::default());
+        let mut first = 0;
+        for place in &mut places {
+            place.first = first;
+            first += place.bits().count_ones();
         }
-        let mut before = 0;
-        for place in &mut lists.places {
-            place.before = before;
-            before += place.bits().count_ones();
-        }
-        lists.starts.push(lists.words.len() as u32);
-        lists.starts.shrink_to_fit();
-        lists.words.shrink_to_fit();
-        Ok(lists)
+        let size = Size { starts: starts.len(), words: words.len(), live: starts.len() + words.len(), most };
+        let (places, starts, words) = (places.into(), starts.into(), words.into());
+        Ok(Self { legs, turns, places, per_move, starts, words, size })
     }
 
-    /// The list of a vertex for paths that arrive there by an even move.
+    /// Where nothing is pruned, no jump is made.
+    fn of_no_jumps() -> Self {
+        Self::none(0)
+    }
+
+    /// No lists, though there might be so many words.
+    fn none(most: usize) -> Self {
+        Self { size: Size { most, ..Size::default() }, ..Self::default() }
+    }
+
+    /// The words from the list of a vertex on, for paths that arrive there by an even move.
     #[inline]
     fn get(&self, id: VertexId, by: usize) -> Option<&[u32]> {
         let (word, bit) = (id.index() / 64, id.index() % 64);
@@ -206,9 +239,8 @@ impl JumpLists {
         if bits >> bit & 1 == 0 {
             return None;
         }
-        let list = place.before as usize + (bits & ((1 << bit) - 1)).count_ones() as usize;
-        let &[start, end] = self.starts.get(list..list + 2)? else { return None };
-        self.words.get(start as usize..end as usize)
+        let list = place.first as usize + (bits & ((1 << bit) - 1)).count_ones() as usize;
+        self.words.get(*self.starts.get(list)? as usize..)
     }
 
     /// Calls `visit` with all successors of a node at which a path arrived by move `by`; false if they are
@@ -226,8 +258,8 @@ impl JumpLists {
         }
         let Some(mut list) = self.get(node.id, by) else { return false };
         let last_move = usize::from(self.turns[0]);
-        while let Some((&first, rest)) = list.split_first() {
-            let Group { index, length, count } = Group::of(first);
+        while let Some((&head, rest)) = list.split_first() {
+            let Group { index, length, count } = Group::of(head);
             let Some((jumps, rest)) = rest.split_at_checked(count as usize) else { break };
             list = rest;
             let way = &context.to_goal;
@@ -255,39 +287,69 @@ impl JumpLists {
                     break;
                 }
             }
+            if head & Group::LAST != 0 {
+                break;
+            }
         }
         true
     }
 
-    /// Where the lists begin and end, and then the lists.
+    /// All lists in the order of their moves and vertices, each by its place and bit.
+    fn all(&self) -> impl Iterator<Item = (usize, u32, &[u32])> {
+        self.places.iter().enumerate().flat_map(move |(number, place)| {
+            let mut left = place.bits();
+            std::iter::from_fn(move || {
+                let bit = (left != 0).then(|| left.trailing_zeros());
+                left &= left.wrapping_sub(1);
+                bit
+            })
+            .zip(place.first as usize..)
+            .map(move |(bit, start)| (number, bit, list_from(&self.words, self.starts[start])))
+        })
+    }
+
+    /// Where the lists of a new table begin and end, and then the lists: what is saved.
     pub(super) fn words(&self) -> impl Iterator<Item = u32> {
-        self.starts.iter().chain(&self.words).copied()
+        let starts = self.all().scan(0, |end, (.., list)| {
+            let start = *end;
+            *end += list.len() as u32;
+            Some(start)
+        });
+        let (count, end) = (self.starts.len(), self.words.len() as u32);
+        starts.chain((count > 0).then_some(end)).chain(self.all().flat_map(|(.., list)| unmarked(list)))
     }
 
     /// To which vertex and arriving move one of the [`words`](Self::words) belongs; an end belongs to the
     /// last list.
     pub(super) fn place_of(&self, word: usize) -> (VertexId, usize) {
-        let last = self.starts.len().saturating_sub(2);
-        let list = match word.checked_sub(self.starts.len()) {
-            None => word.min(last),
-            Some(word) => {
-                self.starts.partition_point(|&start| start as usize <= word).saturating_sub(1).min(last)
-            }
-        } as u32;
-        let place = self.places.partition_point(|place| place.before <= list).saturating_sub(1);
-        let (mut bits, mut before) = (self.places[place].bits(), self.places[place].before);
-        while before < list {
-            bits &= bits.wrapping_sub(1);
-            before += 1;
-        }
-        let id = (place % self.per_move) as u32 * 64 + bits.trailing_zeros();
-        (VertexId(id), place / self.per_move * 2)
+        let (lists, mut end) = (self.all().count(), 0);
+        let is_last = |&(number, (.., list)): &(usize, (usize, u32, &[u32]))| {
+            end += list.len();
+            number == word || number + 1 == lists || word > lists && word - lists <= end
+        };
+        let found = self.all().enumerate().find(is_last);
+        let (_, (place, bit, _)) = found.unwrap_or_default();
+        let per_move = self.per_move.max(1);
+        (VertexId((place % per_move) as u32 * 64 + bit), place / per_move * 2)
     }
 
     /// The number of lists.
     #[cfg(test)]
     pub(super) fn len(&self) -> usize {
-        self.starts.len().saturating_sub(1)
+        self.all().count()
+    }
+
+    /// All lists in order, by the numbers of their places and their bits there.
+    #[cfg(test)]
+    pub(super) fn listed(&self) -> Vec<(usize, u32, Vec<u32>)> {
+        self.all().map(|(place, bit, list)| (place, bit, list.to_vec())).collect()
+    }
+
+    /// The same lists, to which none are added beyond so many words.
+    #[cfg(test)]
+    pub(super) fn with_limit(mut self, most: usize) -> Self {
+        self.size.most = most;
+        self
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
@@ -303,6 +365,34 @@ impl JumpLists {
     fn most_words<P: Placement>(graph: &GridGraph<P>) -> usize {
         graph.vertex_count().max(FEW_WORDS)
     }
+}
+
+/// The list that starts at a word.
+fn list_from(words: &[u32], start: u32) -> &[u32] {
+    let words = words.get(start as usize..).unwrap_or_default();
+    let mut length = 0;
+    while let Some(&head) = words.get(length) {
+        length += 1 + Group::of(head).count as usize;
+        if head & Group::LAST != 0 {
+            break;
+        }
+    }
+    words.get(..length).unwrap_or(words)
+}
+
+/// The words of a list, where it is not said which group is the last one.
+fn unmarked(list: &[u32]) -> impl Iterator<Item = u32> {
+    let mut jumps = 0;
+    list.iter().map(move |&word| match jumps {
+        0 => {
+            jumps = Group::of(word).count;
+            word & !Group::LAST
+        }
+        _ => {
+            jumps -= 1;
+            word
+        }
+    })
 }
 
 /// The rows of a map, for each even move.
@@ -356,100 +446,4 @@ fn jump_points<P: Placement>(
             Some(ExpandedNode { id, at, by: Some(by) })
         })
     })
-}
-
-/// Finds the jumps of single jump points.
-struct Recorder<'r, P: Placement> {
-    graph: &'r GridGraph<P>,
-    pruning: &'r Pruning<P>,
-    blocks: &'r BlockFinder,
-}
-
-impl<P: Placement> Recorder<'_, P> {
-    /// Adds the list of a node; `None` if a word cannot say it.
-    fn record(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<()> {
-        let table = self.pruning.table()?;
-        let moves = table.successors(by, pattern_at(self.graph, node.at));
-        for mut left in in_order(moves) {
-            while left != 0 {
-                let index = left.trailing_zeros() as usize;
-                left &= left - 1;
-                let jumps = self.jumps(node, index);
-                let (length, count) = (self.length(node, index), jumps.len() as u32);
-                words.push(Group { index, length, count }.word()?);
-                for jump in jumps {
-                    words.push(jump.word()?);
-                }
-            }
-        }
-        Some(())
-    }
-
-    /// The jumps by a move.
-    fn jumps(&self, node: &ExpandedNode, index: usize) -> Vec<Jump> {
-        let mut elsewhere = self.jumps_that_hold(node, index, Jump::ELSEWHERE).into_iter().peekable();
-        let mut jumps = Vec::new();
-        // Where a jump leads anywhere, it does near the goal, too, if not as far.
-        for near in self.jumps_that_hold(node, index, Jump::NEAR_GOAL) {
-            match elsewhere.next_if(|jump| jump.is_along(near)) {
-                Some(far) if far.then_steps == near.then_steps => {
-                    jumps.push(Jump { holds: near.holds | far.holds, ..near });
-                }
-                far => jumps.extend([near].into_iter().chain(far)),
-            }
-        }
-        jumps.extend(elsewhere);
-        jumps
-    }
-
-    /// The jumps by a move, all near the goal or all elsewhere.
-    fn jumps_that_hold(&self, node: &ExpandedNode, index: usize, holds: u32) -> Vec<Jump> {
-        let near = if holds == Jump::NEAR_GOAL { NearGoal::EVERYWHERE } else { NearGoal::NOWHERE };
-        let has_other_nodes = self.pruning.diagonals_may_force();
-        let rules = JumpRules { near, has_other_nodes, ..JumpRules::PLAIN };
-        let (context, graph) = (self.context(node, &rules), self.graph);
-        let mut jumps = Vec::new();
-        if index & 1 == 0 {
-            if let Some(steps) = self.blocks.axial(&context, node, index, None, &mut 0) {
-                jumps.push(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds });
-            }
-            return jumps;
-        }
-        let beside = context.beside(index);
-        self.blocks.diagonal(&context, node, index, &mut 0, &mut |next| {
-            let (d, v) = (node.at.to(next.at), graph.step(index).vector());
-            jumps.push(match beside.iter().position(|&even| even == next.by) {
-                Some(then) => {
-                    let steps = cross(graph.step(next.by).vector(), d).unsigned_abs();
-                    Jump { steps, then: then as u32, then_steps: cross(v, d).unsigned_abs(), holds }
-                }
-                None => {
-                    Jump { steps: d.x.abs().max(d.y.abs()) as u32, then: Jump::NO_TURN, then_steps: 0, holds }
-                }
-            });
-            KnownPath::NONE
-        });
-        jumps
-    }
-
-    /// The context of jumps without a goal.
-    fn context<'c>(&'c self, node: &ExpandedNode, rules: &'c JumpRules) -> JumpContext<'c, P> {
-        let (graph, pruning, to_goal) = (self.graph, self.pruning, ToGoal::default());
-        JumpContext { graph, pruning, goal: node.at, rules, stepwise: false, to_goal }
-    }
-
-    /// How often a move can be repeated.
-    fn length(&self, node: &ExpandedNode, index: usize) -> u32 {
-        let context = self.context(node, &JumpRules::PLAIN);
-        if index & 1 == 0 {
-            return self.blocks.axial_stops().legal_steps(node.at, context.quarter(index));
-        }
-        let mut scan = self.blocks.diagonal_stops().scan(node.at, index);
-        loop {
-            let (steps, leads) = scan.next(|_| None);
-            if leads == [false; 2] && !context.can_enter(node, index, steps) {
-                return steps - 1;
-            }
-        }
-    }
 }

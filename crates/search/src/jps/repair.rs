@@ -43,6 +43,15 @@ impl From<Interrupted> for Stop {
     }
 }
 
+/// The part of a map and of its planes that a change alters.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Altered {
+    /// The vertices around which the pattern of cells changes.
+    pub(super) zones: Vec<Zone>,
+    /// The vertices that axial jumps in a direction find otherwise.
+    pub(super) found: Vec<(Vertex, usize)>,
+}
+
 /// Repairs planes.
 pub(super) struct Repair<'r, P: Placement> {
     graph: &'r GridGraph<P>,
@@ -88,8 +97,8 @@ impl<'r, P: Placement> Repair<'r, P> {
         Self { left: u64::MAX, ..self }
     }
 
-    /// The planes after the change.
-    pub(super) fn follow(mut self, change: &Change) -> Result<(AxialStops, DiagonalStops), Stop> {
+    /// The planes after the change, and what it alters.
+    pub(super) fn follow(mut self, change: &Change) -> Result<(AxialStops, DiagonalStops, Altered), Stop> {
         let zones = Zone::of_change::<P>(change);
         self.spend(zones.iter().map(|zone| zone.count() * OF_ZONE).sum())?;
         let (mut axial, mut differences) = self.axial.with_zones(self.graph, &zones, self.interrupt)?;
@@ -106,22 +115,21 @@ impl<'r, P: Placement> Repair<'r, P> {
             }
         }
         let mut edit = self.diagonals.edit();
-        for zone in zones {
+        for &zone in &zones {
             self.interrupt.check(DURING)?;
             self.set_zone(&axial, (change.before(), zone), &mut edit);
         }
-        for (number, Difference { at, quarter, .. }) in differences.into_iter().enumerate() {
+        let points = points.into_iter().map(|JumpPoint { at, quarter, .. }| (at, quarter));
+        let mut found: Vec<_> = differences.into_iter().map(|found| (found.at, found.quarter)).collect();
+        found.extend(points.filter(|&(at, quarter)| {
+            let [was, is] = self.axial.findings(&axial, at, quarter);
+            was != is
+        }));
+        for (number, &(at, quarter)) in found.iter().enumerate() {
             self.interrupt.check_every(64, number, DURING)?;
             self.set_before(&axial, (at, quarter), &mut edit)?;
         }
-        for (number, JumpPoint { at, quarter, .. }) in points.into_iter().enumerate() {
-            self.interrupt.check_every(64, number, DURING)?;
-            let [was, is] = self.axial.findings(&axial, at, quarter);
-            if was != is {
-                self.set_before(&axial, (at, quarter), &mut edit)?;
-            }
-        }
-        Ok((axial, edit.finish()))
+        Ok((axial, edit.finish(), Altered { zones, found }))
     }
 
     /// The directions of axial jumps.

@@ -191,7 +191,7 @@ impl<'g, P: Placement> StopRows<'g, P> {
 
 /// The bits `start`, and those of the bits `through` that follow them without a break, from high to low bits
 /// if `DOWN`.
-fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
+pub(super) fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
     let (mut start, mut through) = (start, through);
     for by in [1, 2, 4, 8, 16, 32] {
         let shifted = |word: u64| if DOWN { word >> by } else { word << by };
@@ -202,7 +202,12 @@ fn carried<const DOWN: bool>(start: u64, through: u64) -> u64 {
 }
 
 /// Of 64 vertices from (x, y) on, those where the cells `free`, and one of each pair `either`, are free.
-fn holds(rows: &BitMatrix, (x, y): (i32, i32), free: &[CellOffset], either: &[[CellOffset; 2]]) -> u64 {
+pub(super) fn holds(
+    rows: &BitMatrix,
+    (x, y): (i32, i32),
+    free: &[CellOffset],
+    either: &[[CellOffset; 2]],
+) -> u64 {
     let at = rows.index(x, y);
     let cell = |&(dx, dy): &CellOffset| !load(rows.words(), at.offset(dy * rows.bits_per_row() + dx));
     let all = free.iter().fold(!0, |all, offset| all & cell(offset));

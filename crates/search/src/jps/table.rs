@@ -8,10 +8,16 @@
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
-use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Placement, uninterrupted};
+use mediant_grid::{Change, GridGraph, Identity, Interrupt, Interrupted, Placement, uninterrupted};
 use mediant_moves::KError;
 
-use super::{block_finder::BlockFinder, error::JumpError, lists::JumpLists, planes::JumpPlanes};
+use super::{
+    block_finder::BlockFinder,
+    error::JumpError,
+    lists::{JumpLists, Recorder},
+    planes::JumpPlanes,
+    repair::Stop,
+};
 use crate::canonical::Pruning;
 
 /// The jumps from all jump points of a grid graph: 2.8 to 5.6 bytes a vertex on the benchmark maps at k = 3.
@@ -41,7 +47,12 @@ use crate::canonical::Pruning;
 pub struct JumpTable {
     blocks: BlockFinder,
     lists: JumpLists,
+    /// Whether lists have followed a change: then a new table may have others.
+    is_repaired: bool,
 }
+
+/// In the place of lists: all are found when the table is read.
+const NO_LISTS: u32 = u32::MAX;
 
 impl JumpTable {
     /// The largest k that has a table.
@@ -82,15 +93,49 @@ impl JumpTable {
     ) -> Result<Self, Interrupted> {
         let dead_ends = std::mem::take(&mut planes.dead_ends);
         let blocks = BlockFinder::with_planes(graph, planes);
-        let lists = JumpLists::new(graph, pruning, &blocks, &dead_ends, interrupt)?;
-        Ok(Self { blocks, lists })
+        let recorder = Recorder { graph, pruning, blocks: &blocks };
+        let lists = JumpLists::new(&recorder, &dead_ends, interrupt)?;
+        Ok(Self { blocks, lists, is_repaired: false })
+    }
+
+    /// The table of the grid graph after a change of the map, by the pruning rule of that grid graph. It
+    /// works as long as the change alters where jumps lead, and makes a new table where that would be
+    /// quicker.
+    ///
+    /// It leads to the same costs as a new one. Whether it looks for dead ends, and whether it has lists, was
+    /// decided when it was made.
+    ///
+    /// # Errors
+    /// [`JumpError::Mismatch`] if the change is not from the map of this table to that of the grid graph, or
+    /// if the rule was prepared for another one, and [`JumpError::Interrupted`].
+    pub fn repaired<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Self, JumpError> {
+        if let Some((blocks, altered)) = self.blocks.followed(graph, pruning, change, interrupt)? {
+            let recorder = Recorder { graph, pruning, blocks: &blocks };
+            match self.lists.repaired(&recorder, self.blocks.axial_stops(), &altered, interrupt) {
+                Ok(lists) => {
+                    let is_repaired = self.is_repaired || !altered.zones.is_empty();
+                    return Ok(Self { blocks, lists, is_repaired });
+                }
+                Err(Stop::TooMuch) => {}
+                Err(Stop::Interrupted(interrupted)) => return Err(interrupted.into()),
+            }
+        }
+        let planes = JumpPlanes::new(graph, pruning, interrupt)?;
+        Ok(Self::from_planes(graph, pruning, planes, interrupt)?)
     }
 
     /// The version of the format of [`to_bytes`](Self::to_bytes).
     pub const VERSION: u32 = 5;
 
     /// The table as bytes: what it belongs to, then the lists. [`from_bytes`](Self::from_bytes) reads them,
-    /// and makes the rest from the map.
+    /// and makes the rest from the map. The bytes of a repaired table are those of no list: then it makes
+    /// these as well.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         uninterrupted(|never| self.to_bytes_interruptible(never))
@@ -102,6 +147,10 @@ impl JumpTable {
     /// [`Interrupted`], with nothing kept.
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = self.identity().to_bytes().to_vec();
+        if self.is_repaired {
+            bytes.extend(NO_LISTS.to_le_bytes());
+            return Ok(bytes);
+        }
         for (number, word) in self.lists.words().enumerate() {
             interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             bytes.extend(word.to_le_bytes());
@@ -131,6 +180,9 @@ impl JumpTable {
         let (found, bytes) = Identity::split_from(bytes).ok_or(JumpError::Bytes)?;
         found.check_equal("the jump table", ("the grid graph", graph.identity()))?;
         let table = Self::interruptible(graph, interrupt)?;
+        if bytes == NO_LISTS.to_le_bytes() {
+            return Ok(table);
+        }
         let expected = table.lists.words().count() * 4;
         if bytes.len() != expected {
             return Err(JumpError::Length { expected, found: bytes.len() });
@@ -151,6 +203,12 @@ impl JumpTable {
         self.blocks.identity
     }
 
+    /// The same table, to which no lists are added beyond so many words.
+    #[cfg(test)]
+    pub(super) fn with_list_limit(self, most: usize) -> Self {
+        Self { lists: self.lists.with_limit(most), ..self }
+    }
+
     #[inline]
     pub(super) const fn blocks(&self) -> &BlockFinder {
         &self.blocks
@@ -161,7 +219,7 @@ impl JumpTable {
         &self.lists
     }
 
-    /// The memory that the table of a grid graph with k ≤ 3 uses at most, in bytes.
+    /// The memory that a new table of a grid graph with k ≤ 3 uses at most, in bytes.
     #[must_use]
     pub fn bytes<P: Placement>(graph: &GridGraph<P>) -> usize {
         BlockFinder::bytes(graph).saturating_add(JumpLists::most_bytes(graph))

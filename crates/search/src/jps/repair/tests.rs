@@ -24,6 +24,8 @@ use crate::{
     },
 };
 
+mod tables;
+
 fn grid(seed: u64) -> Grid {
     let rng = &mut Rng::new(seed);
     match seed % 8 {
@@ -135,7 +137,7 @@ impl Test for Planes {
             let stops = (&is.axial, &is.diagonals, reach);
             let repair = Repair::new(&graph, pruning.table().unwrap(), stops, never).without_limit();
             match repair.follow(&change) {
-                Ok((axial, diagonals)) => {
+                Ok((axial, diagonals, _)) => {
                     let (known, all) = (dead_ends(&graph, &axial), dead_ends(&graph, &new.axial));
                     assert!(known.is_subset(&all), "dead ends, {}", case());
                     // With all dead ends, they are new ones.
@@ -167,14 +169,20 @@ fn dead_ends<P: Placement>(graph: &GridGraph<P>, axial: &AxialStops) -> BTreeSet
     all.filter(|&(at, quarter)| axial.is_dead_end(at, quarter)).collect()
 }
 
+/// Dead ends in rows.
+fn rows_of<P: Placement>(graph: &GridGraph<P>, dead_ends: &BTreeSet<(Vertex, usize)>) -> DeadEndRows {
+    let mut rows = DeadEndRows::new(P::vertices(graph.grid()));
+    dead_ends.iter().for_each(|&(at, quarter)| rows.add(at, quarter));
+    rows
+}
+
 /// New diagonal planes where these are the dead ends.
 fn with_dead_ends<P: Placement>(
     graph: &GridGraph<P>,
     pruning: &Pruning<P>,
     dead_ends: &BTreeSet<(Vertex, usize)>,
 ) -> DiagonalStops {
-    let mut rows = DeadEndRows::new(P::vertices(graph.grid()));
-    dead_ends.iter().for_each(|&(at, quarter)| rows.add(at, quarter));
+    let rows = rows_of(graph, dead_ends);
     uninterrupted(|never| {
         let leads = Leads::new(graph, &DeadEndRows::default(), never)?;
         DiagonalStops::new(graph, pruning, [&leads, &Leads::new(graph, &rows, never)?], never)

@@ -1,0 +1,253 @@
+//! Repaired jump tables against new ones, through chains of random edits.
+
+use std::sync::Arc;
+
+use mediant_grid::{
+    Centers, Change, CornerRule, Grid, GridGraph, Identity, Interrupt, Placement, Vertex, uninterrupted,
+};
+use mediant_oracle::{Rng, caves, describe, noise, random_free_vertex, rooms, seeds};
+
+use super::{Repair, Test, dead_ends, edit, graph, grid, on_all, planes, rows_of};
+use crate::{
+    AStar, Ends, Hk, JpsPlus, JumpError, JumpTable, Path, Planner,
+    canonical::Pruning,
+    jps::{
+        BlockFinder,
+        dead_ends::{DeadEndRows, REACH},
+        lists::{JumpLists, Recorder},
+        planes::JumpPlanes,
+    },
+};
+
+/// The lists that a new table would have on the planes of another one.
+fn new_lists<P: Placement>(graph: &GridGraph<P>, pruning: &Pruning<P>, table: &JumpTable) -> JumpLists {
+    let blocks = table.blocks();
+    let rows = rows_of(graph, &dead_ends(graph, blocks.axial_stops()));
+    uninterrupted(|never| JumpLists::new(&Recorder { graph, pruning, blocks }, &rows, never))
+}
+
+/// A list, by the number of its place and its bit there.
+type Listed = (usize, u32, Vec<u32>);
+
+fn is_repaired(table: &JumpTable) -> bool {
+    let bytes = table.to_bytes();
+    bytes.len() == Identity::BYTES + 4 && bytes.ends_with(&[0xff; 4])
+}
+
+/// Repaired lists are those that a new table has on the same planes, however large the changes are.
+#[derive(Default)]
+struct Lists {
+    repaired: u64,
+    anew: u64,
+    lists: usize,
+    replaced: usize,
+}
+
+impl Test for Lists {
+    fn on<P: Placement>(&mut self, rule: P::Rule, k: u32, seed: u64) {
+        let (rng, never) = (&mut Rng::new(seed), &Interrupt::NEVER);
+        let mut map = Arc::new(grid(seed));
+        let reach = [0, REACH, 3][rng.below(3) as usize];
+        let new = |graph: &GridGraph<P>, pruning: &Pruning<P>| {
+            let mut planes = planes(graph, pruning, reach);
+            let rows = std::mem::take(&mut planes.dead_ends);
+            let blocks = BlockFinder::with_planes(graph, planes);
+            let lists = JumpLists::new(&Recorder { graph, pruning, blocks: &blocks }, &rows, never).unwrap();
+            (blocks, lists)
+        };
+        let first = graph::<P>(&map, rule, k);
+        let (mut blocks, mut lists) = new(&first, &Pruning::new(&first));
+        for step in 0..20 {
+            let change = edit(rng, &map);
+            let graph = &graph::<P>(change.after(), rule, k);
+            let pruning = &Pruning::new(graph);
+            let stops = (blocks.axial_stops(), blocks.diagonal_stops(), reach);
+            let repair = Repair::new(graph, pruning.table().unwrap(), stops, never).without_limit();
+            let repaired = repair.follow(&change).and_then(|(axial, diagonals, altered)| {
+                let planes = JumpPlanes { axial, diagonals, dead_ends: DeadEndRows::default(), reach };
+                let next = BlockFinder::with_planes(graph, planes);
+                let recorder = Recorder { graph, pruning, blocks: &next };
+                let altered = (blocks.axial_stops(), &altered);
+                let repaired = lists.repaired_within([usize::MAX; 2], &recorder, altered, never)?;
+                Ok((next, repaired))
+            });
+            if let Ok((next, repaired)) = repaired {
+                let recorder = Recorder { graph, pruning, blocks: &next };
+                let [was, is] = [&lists, &repaired].map(JumpLists::listed);
+                let rows = rows_of(graph, &dead_ends(graph, next.axial_stops()));
+                let new = JumpLists::new(&recorder, &rows, never).unwrap().listed();
+                let case = || {
+                    let at = Vertex::default();
+                    let name = describe(change.before(), P::rules(rule), at, at, seed);
+                    format!("step {step}, k = {k}, reach {reach}, {:?}, {name}", change.cells())
+                };
+                // On larger maps a new table may have no lists at all, or begin to have them.
+                let is_decided = graph.vertex_count() > 1 << 12 && is.is_empty() != new.is_empty();
+                assert!(is == new || is_decided, "{}", case());
+                self.lists += is.len();
+                self.replaced += is.iter().filter(|list| was.binary_search(list).is_err()).count();
+                self.repaired += 1;
+                (blocks, lists) = (next, repaired);
+            } else {
+                (blocks, lists) = new(graph, pruning);
+                self.anew += 1;
+            }
+            map = Arc::clone(change.after());
+        }
+    }
+}
+
+#[test]
+fn repaired_lists_are_new_ones() {
+    let mut test = Lists::default();
+    on_all(seeds(8), &mut test);
+    let Lists { repaired, anew, lists, replaced } = test;
+    assert!(repaired > 1_200 && anew > 10, "{repaired} repaired, {anew} anew");
+    assert!(lists > 200_000 && replaced > 20_000, "{lists} lists, {replaced} of them replaced");
+}
+
+/// Searches by a table that was repaired again and again find what A\* finds, and its bytes give a new table.
+#[derive(Default)]
+struct Costs {
+    repaired: u64,
+    anew: u64,
+    queries: u64,
+    found: u64,
+    read: u64,
+}
+
+impl Test for Costs {
+    fn on<P: Placement>(&mut self, rule: P::Rule, k: u32, seed: u64) {
+        let rng = &mut Rng::new(seed);
+        let mut map = Arc::new(match seed % 4 {
+            0 => rooms(rng, 130, 70),
+            1 => caves(rng, 66, 60),
+            2 => noise(rng, 63, 64, 2),
+            _ => grid(seed / 4),
+        });
+        let mut table = JumpTable::new(&graph::<P>(&map, rule, k)).unwrap();
+        for step in 0..20 {
+            let change = edit(rng, &map);
+            let graph = &graph::<P>(change.after(), rule, k);
+            let pruning = Arc::new(Pruning::new(graph));
+            table = table.repaired(graph, &pruning, &change, &Interrupt::NEVER).unwrap();
+            *if is_repaired(&table) { &mut self.repaired } else { &mut self.anew } += 1;
+            if rng.below(20) == 0 {
+                let read = JumpTable::from_bytes(graph, &table.to_bytes());
+                assert_eq!(read, Ok(JumpTable::new(graph).unwrap()), "seed {seed}, step {step}, k = {k}");
+                self.read += 1;
+            }
+            let mut jps = JpsPlus::with_finder(graph, pruning, Arc::new(table.clone()), Hk).unwrap();
+            let mut astar = AStar::new(graph, Hk);
+            for _ in 0..3 {
+                let mut free = || random_free_vertex(rng, graph.grid(), P::KIND);
+                let (Some(start), Some(goal)) = (free(), free()) else { continue };
+                let length = |path: Option<&Path>| path.map(|path| (path.cost() * 1e9).round());
+                let query = Ends::new(start, goal);
+                let expected = length(astar.solve(query).unwrap().path());
+                let found = length(jps.solve(query).unwrap().path());
+                let case = || describe(graph.grid(), P::rules(rule), start, goal, seed);
+                assert_eq!(found, expected, "step {step}, k = {k}, {}", case());
+                self.queries += 1;
+                self.found += u64::from(expected.is_some());
+            }
+            map = Arc::clone(change.after());
+        }
+    }
+}
+
+#[test]
+fn repaired_tables_lose_no_path() {
+    let mut test = Costs::default();
+    on_all(seeds(4), &mut test);
+    let Costs { repaired, anew, queries, found, read } = test;
+    assert!(repaired > 300 && anew > 10 && read > 20, "{repaired} repaired, {anew} anew, {read} read");
+    assert!(queries > 1_500 && found > 1_000, "{found} of {queries}");
+}
+
+/// The edits of single cells on a map of rooms, one after another, with about as many blocked all the time.
+/// Calls `check` with each number and table.
+fn chain(edits: usize, mut table: JumpTable, mut check: impl FnMut(usize, &GridGraph<Centers>, &JumpTable)) {
+    let (rng, first) = (&mut Rng::new(8), Arc::new(town()));
+    let mut map = Arc::clone(&first);
+    for edit in 0..edits {
+        let (x, y) = (rng.below(map.width()), rng.below(map.height()));
+        let was_blocked = first.is_blocked(x as i32, y as i32);
+        let change = Change::new(Arc::clone(&map)).edit_cells([(x, y, was_blocked != rng.chance(10))]);
+        let graph = graph::<Centers>(change.after(), CornerRule::Never, 3);
+        table = table.repaired(&graph, &Pruning::new(&graph), &change, &Interrupt::NEVER).unwrap();
+        check(edit, &graph, &table);
+        map = Arc::clone(change.after());
+    }
+}
+
+fn town() -> Grid {
+    rooms(&mut Rng::new(8), 85, 45)
+}
+
+fn first_table() -> JumpTable {
+    JumpTable::new(&graph::<Centers>(&Arc::new(town()), CornerRule::Never, 3)).unwrap()
+}
+
+/// Whatever comes and goes, lists are put together again before they take much more memory than they need.
+#[test]
+fn lists_stay_small() {
+    let (mut last, mut together) = (0, 0);
+    chain(2_000, first_table(), |edit, graph, table| {
+        let used = table.lists().memory_bytes();
+        together += u32::from(used != last);
+        last = used;
+        if edit % 50 == 0 {
+            let new = new_lists(graph, &Pruning::new(graph), table);
+            let needed = new.memory_bytes();
+            assert!(used < needed + needed / 2 + 8_000, "{used} bytes, edit {edit}, {needed} are needed");
+            assert!(table.lists().listed() == new.listed(), "edit {edit}");
+        }
+    });
+    assert!((5..200).contains(&together), "{together}");
+}
+
+/// Beyond the limit no list is added, and jumps are scanned.
+#[test]
+fn lists_stay_within_their_limit() {
+    let words = |lists: &[Listed]| lists.iter().map(|(.., list)| list.len() + 1).sum::<usize>();
+    let first = first_table();
+    let most = words(&first.lists().listed()) / 2;
+    let (mut last, mut fewer, mut longest) = (usize::MAX, 0, 0.0_f64);
+    chain(1_000, first.with_list_limit(most), |edit, graph, table| {
+        let lists = table.lists().listed();
+        let used = words(&lists);
+        assert!(used <= last.max(most), "edit {edit}: {used}, {last}");
+        last = used;
+        if edit % 20 == 0 {
+            let pruning = Pruning::new(graph);
+            let new = new_lists(graph, &pruning, table).listed();
+            assert!(lists.iter().all(|list| new.binary_search(list).is_ok()), "edit {edit}");
+            fewer += u32::from(lists.len() < new.len());
+            let mut jps = JpsPlus::new(graph, Arc::new(table.clone()), Hk).unwrap();
+            let query = Ends::new((1, 1), (83, 43));
+            let expected = AStar::new(graph, Hk).solve(query).unwrap().path().map_or(0.0, Path::cost);
+            let found = jps.solve(query).unwrap().path().map_or(0.0, Path::cost);
+            assert!((found - expected).abs() < 1e-9 * (1.0 + expected), "edit {edit}: {found}, {expected}");
+            longest = longest.max(found);
+        }
+    });
+    assert!(last <= most && fewer > 10 && longest > 80.0, "{last} of {most}, {fewer}, {longest}");
+}
+
+#[test]
+fn changes_of_other_maps_are_refused() {
+    let map = Arc::new(town());
+    let change = Change::new(Arc::clone(&map)).edit_cells([(3, 3, map.is_free(3, 3))]);
+    let [before, after] =
+        [change.before(), change.after()].map(|map| graph::<Centers>(map, CornerRule::Never, 3));
+    let [old, new] = [&before, &after].map(Pruning::new);
+    let (table, never) = (first_table(), &Interrupt::NEVER);
+    let nothing = Change::new(Arc::clone(&map));
+    let refused = |result| assert!(matches!(result, Err(JumpError::Mismatch(_))), "{result:?}");
+    refused(table.repaired(&after, &old, &change, never));
+    refused(table.repaired(&before, &old, &change, never));
+    refused(table.repaired(&after, &new, &nothing, never));
+    assert_eq!(table.repaired(&before, &old, &nothing, never), Ok(table.clone()));
+    assert_eq!(table.repaired(&after, &new, &change, never).unwrap().identity(), after.identity());
+}
