@@ -39,8 +39,9 @@ fn free_cell(rng: &mut Rng, space: &Space) -> (i32, i32) {
 }
 
 /// Prints a row of the table: microseconds.
-fn measure(name: &str, map: &Map, engine: Engine, edits: usize) {
-    let motion = if engine == Engine::Anya { Motion::corners(K::ANY) } else { Motion::centers(K::N8) };
+fn measure(name: &str, map: &Map, (engine, k): (Engine, u32), edits: usize) {
+    let motion = if engine == Engine::Anya { Motion::corners(K::ANY) } else { Motion::centers(k) };
+    let said = if k == 3 { format!("`{engine}`") } else { format!("`{engine}`, k = {k}") };
     let (mut space, mut rng, side) = (map.space(motion).unwrap(), Rng::new(99), map.width());
     let start = Instant::now();
     let mut index = space.prepare(engine).unwrap();
@@ -67,7 +68,7 @@ fn measure(name: &str, map: &Map, engine: Engine, edits: usize) {
     let [median, most, worst] =
         [times.len() / 2, times.len() * 99 / 100, times.len() - 1].map(|at| times[at]);
     println!(
-        "| {side}², {name} | `{engine}` | {mean:.1} | {median:.1} | {most:.0} | {worst:.0} | {first:.0} | {anew:.0} |"
+        "| {side}², {name} | {said} | {mean:.1} | {median:.1} | {most:.0} | {worst:.0} | {first:.0} | {anew:.0} |"
     );
 }
 
@@ -83,7 +84,10 @@ fn main() {
             let map = if name == "noise" { noise(rng, side, side, 20) } else { rooms(rng, side) };
             let map = Map::from(map);
             for engine in [E::AStar, E::Canonical, E::JpsBlock, E::JpsPlus, E::Anya, E::Hpa, E::Chpa] {
-                measure(name, &map, engine, edits);
+                measure(name, &map, (engine, 3), edits);
+            }
+            for (engine, k) in [(E::Canonical, 4), (E::Jps, 4), (E::Canonical, 5), (E::Jps, 5)] {
+                measure(name, &map, (engine, k), edits);
             }
         }
     }

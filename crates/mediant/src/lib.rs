@@ -102,7 +102,7 @@
 //! | engine | what follows an edit | the same |
 //! |---|---|---|
 //! | `astar`, `dijkstra`, `wavefront`, `theta`, `lazy-theta` | the space alone | paths |
-//! | `canonical`, `jps` | the space alone up to k = 3; above, distances to obstacles are found anew | paths |
+//! | `canonical`, `jps` | the space alone up to k = 3; above, distances to obstacles, and what searches found | paths |
 //! | `jps-block` | where jumps stop, and dead ends | costs |
 //! | `jps-plus` | likewise, and the lists of jumps that lead there | costs |
 //! | `anya` | dead ends, and rooms behind single doors | costs |

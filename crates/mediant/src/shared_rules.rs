@@ -7,9 +7,10 @@
 use std::sync::Arc;
 
 use mediant_grid::{Centers, Corners, GridGraph, Interrupt, PerMotion, Placement};
+use mediant_moves::FiniteK;
 use mediant_search::{CanonicalRule, Pruning};
 
-use crate::error::Error;
+use crate::{change::Change, error::Error};
 
 /// The pruning rules of one placement that were asked for.
 pub(crate) type Known<P> = PerMotion<Arc<CanonicalRule<P>>>;
@@ -50,4 +51,18 @@ pub(crate) fn pruning<P: Shared>(
         })??
     };
     Ok(Arc::new(Pruning::with_rule_interruptible(graph, Arc::clone(rule), interrupt)??))
+}
+
+/// The pruning rule on the grid graph after a change; `None` if it must be made anew. The light build leaves
+/// out how the tables of the map follow that a rule has above k = 3.
+pub(crate) fn repaired<P: Shared>(
+    pruning: &Pruning<P>,
+    graph: &GridGraph<P>,
+    change: &Change,
+    interrupt: &Interrupt,
+) -> Result<Option<Arc<Pruning<P>>>, Error> {
+    if cfg!(feature = "all-engines") {
+        return Ok(Some(Arc::new(pruning.repaired(graph, change.of_grid(), interrupt)??)));
+    }
+    (graph.k() <= FiniteK::N8).then(|| self::pruning(graph, interrupt)).transpose()
 }

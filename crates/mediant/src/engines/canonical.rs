@@ -4,7 +4,6 @@
 use std::sync::Arc;
 
 use mediant_grid::{GridGraph, Interrupt, Placement};
-use mediant_moves::FiniteK;
 #[cfg(feature = "publications")]
 use mediant_search::PaperCanonical;
 use mediant_search::{Canonical, Pruning, parts::NodeStore};
@@ -148,9 +147,10 @@ impl<P: PlacementOfSpace> EngineIndex for CanonicalIndex<P> {
         let k = self.graph.k();
         let graph = P::layers(change.after(), Engine::Canonical)?.graph(k)?;
         let rule = match &self.rule {
-            // Then the rule has tables of the map.
-            Rule::Pruning(_) if k > FiniteK::N8 => return Ok(None),
-            Rule::Pruning(_) => Rule::Pruning(shared_rules::pruning(graph, interrupt)?),
+            Rule::Pruning(pruning) => match shared_rules::repaired(pruning, graph, change, interrupt)? {
+                Some(pruning) => Rule::Pruning(pruning),
+                None => return Ok(None),
+            },
             #[cfg(feature = "publications")]
             Rule::AsPublished => Rule::AsPublished,
         };

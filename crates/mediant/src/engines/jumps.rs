@@ -5,7 +5,6 @@ use std::num::NonZeroU32;
 use std::sync::Arc;
 
 use mediant_grid::{Change as GridChange, GridGraph, Interrupt, Interrupted, Placement, VertexId};
-use mediant_moves::FiniteK;
 use mediant_search::{
     Pruning,
     parts::{BlockFinder, JumpFinder, JumpPointSearch, NodeStore, StepwiseFinder},
@@ -172,13 +171,10 @@ impl<P: PlacementOfSpace, J: EngineFinder<P> + 'static> EngineIndex for JumpInde
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
-        let k = self.graph.k();
-        if k > FiniteK::N8 {
-            // The pruning rule has tables of the map.
+        let graph = P::layers(change.after(), J::ENGINE)?.graph(self.graph.k())?;
+        let Some(pruning) = shared_rules::repaired(&self.pruning, graph, change, interrupt)? else {
             return Ok(None);
-        }
-        let graph = P::layers(change.after(), J::ENGINE)?.graph(k)?;
-        let pruning = shared_rules::pruning(graph, interrupt)?;
+        };
         let finder = self.finder.repaired((graph, &pruning), change.of_grid(), interrupt)?;
         finder.map(|finder| shared(Self::new(graph, pruning, finder, self.own))).transpose()
     }

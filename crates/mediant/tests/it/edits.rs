@@ -2,7 +2,7 @@
 
 use mediant::{
     Answer, Change, Ends, Engine, Index, K, Map, Motion, Origin, PlacementKind, Planner, Rectangle, Rules,
-    Setup, Space, options::Variant,
+    Setup, Space,
 };
 use mediant_grid::{Change as GridChange, Grid};
 use mediant_oracle::{Rng, caves, on_all_cores, random_change, random_vertex, seeds, suite_grid};
@@ -31,7 +31,7 @@ fn sense(engine: Engine) -> Sense {
 /// Every engine with a motion of this number that it takes.
 fn setups(number: u64) -> Vec<Setup> {
     let rules = Rules::ALL[number as usize % Rules::ALL.len()];
-    let ks = [K::N8, K::N4, K::N16, K::ANY, K::N8, K::N32];
+    let ks = [K::N8, K::N4, K::N16, K::ANY, K::N32, K::N64, K::N8, K::new(7).expect("a k")];
     let k = ks[number as usize / Rules::ALL.len() % ks.len()];
     let motion = Motion::new(k, rules);
     Engine::ALL
@@ -146,13 +146,13 @@ fn paths_on_edited_maps_are_those_of_new_maps() {
     });
 }
 
-/// Whether the index of a setup follows an edit. Above k = 3 pruning rules have tables of the map.
+/// Whether the index of a setup follows an edit.
 fn is_repaired(setup: Setup) -> bool {
     use Engine as E;
     match setup.engine.kind() {
         E::AStar | E::Dijkstra | E::Wavefront | E::Theta | E::LazyTheta => true,
-        E::JpsBlock | E::JpsPlus | E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
-        E::Jps | E::Canonical => setup.k() <= K::N8 || setup.engine.variant() == Some(Variant::Paper),
+        E::Canonical | E::Jps | E::JpsBlock | E::JpsPlus => true,
+        E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
         _ => false,
     }
 }

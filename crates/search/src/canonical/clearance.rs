@@ -14,17 +14,22 @@
 //! So every successor that is not natural is pruned, under either placement and every rule of motion. (At
 //! corners the box is taken one wider, so that no vertex of the path is a gap.)
 
-use mediant_grid::{CellOffset, GridGraph, Interrupt, Interrupted, Placement, PlacementKind, VertexId};
+mod repair;
 
+use mediant_grid::{
+    CellOffset, Change, Grid, Interrupt, Interrupted, Placement, PlacementKind, Versioned, VertexId, load,
+};
+
+use self::repair::Repair;
 use crate::filled::filled;
 
 /// The stage that an interrupted call names.
 const DURING: &str = "finding how far obstacles are";
 
 /// The clearance of each vertex, two bytes each; 255 also stands for all larger distances.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Clearance {
-    values: Box<[[u8; 2]]>,
+    values: Versioned<[u8; 2]>,
 }
 
 /// The clearance of one vertex.
@@ -38,45 +43,89 @@ pub(crate) struct VertexClearance {
     pub(crate) corner: u32,
 }
 
+/// One of the two bytes. Each is the Chebyshev distance between vertices to the nearest marked one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Layer {
+    /// [`VertexClearance::free`]: at centers blocked cells are marked, at corners all vertices of blocked
+    /// cells. The outside of the map is blocked.
+    Free,
+    /// [`VertexClearance::corner`]: at centers the cells that touch a convex corner are marked, at corners
+    /// convex corners. There is none outside of the map.
+    Corner,
+}
+
+impl Layer {
+    /// The distance of the positions beyond the map.
+    const fn outside(self) -> u8 {
+        match self {
+            Self::Free => 0,
+            Self::Corner => u8::MAX,
+        }
+    }
+
+    /// Which of the 64 vertices of row y from column x on are marked. The bits beyond the last column mean
+    /// nothing.
+    #[inline]
+    fn marked<P: Placement>(self, grid: &Grid, (x, y): (i32, i32)) -> u64 {
+        let rows = grid.rows();
+        let cells = |dx: i32, dy: i32| load(rows.words(), rows.index(x + dx, y + dy));
+        let around =
+            |dx: i32, dy: i32| [cells(dx - 1, dy - 1), cells(dx, dy - 1), cells(dx - 1, dy), cells(dx, dy)];
+        // See `is_convex_corner`.
+        let corners = |dx: i32, dy: i32| {
+            let [nw, ne, sw, se] = around(dx, dy);
+            (nw | se) ^ (ne | sw)
+        };
+        match (self, P::KIND) {
+            (Self::Free, PlacementKind::Center) => cells(0, 0),
+            (Self::Free, PlacementKind::Corner) => around(0, 0).into_iter().fold(0, |any, cells| any | cells),
+            (Self::Corner, PlacementKind::Center) => {
+                corners(0, 0) | corners(1, 0) | corners(0, 1) | corners(1, 1)
+            }
+            (Self::Corner, PlacementKind::Corner) => corners(0, 0),
+        }
+    }
+}
+
 impl Clearance {
-    pub(crate) fn new<P: Placement>(
-        graph: &GridGraph<P>,
+    pub(crate) fn new<P: Placement>(grid: &Grid, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        let free = distances::<P>(grid, Layer::Free, interrupt)?;
+        let corner = distances::<P>(grid, Layer::Corner, interrupt)?;
+        let (width, height) = P::vertices(grid);
+        let mut values = Vec::with_capacity(width as usize * height as usize);
+        for (free, corner) in rows(&free, width).zip(rows(&corner, width)).take(height as usize) {
+            interrupt.check(DURING)?;
+            values.extend(free.iter().zip(corner).map(|(&free, &corner)| [free, corner]));
+        }
+        Ok(Self { values: values.into() })
+    }
+
+    /// That of the map after a change, with the same values as a new one, by work that follows the vertices
+    /// whose values change; a new one where that would be quicker.
+    pub(crate) fn after<P: Placement>(
+        &self,
+        change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
-        let grid = graph.grid();
-        let (width, height) = (grid.width() as usize, grid.height() as usize);
-        let cells = distances((width, height), 0, interrupt, |x, y| grid.is_blocked(x as i32, y as i32))?;
-        let blocked = |x: usize, y: usize| grid.is_blocked(x as i32, y as i32);
-        let points = distances((width + 1, height + 1), u8::MAX, interrupt, |x, y| {
-            let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
-            is_convex_corner([blocked(left, above), blocked(x, above), blocked(left, y), blocked(x, y)])
-        })?;
-        let point = |x: usize, y: usize| points[y * (width + 1) + x];
-        let mut values = Vec::with_capacity(graph.vertex_count());
-        match P::KIND {
-            PlacementKind::Center => {
-                for y in 0..height {
-                    interrupt.check(DURING)?;
-                    values.extend((0..width).map(|x| {
-                        let above = point(x, y).min(point(x + 1, y));
-                        [cells[y * width + x], above.min(point(x, y + 1)).min(point(x + 1, y + 1))]
-                    }));
-                }
-            }
-            PlacementKind::Corner => {
-                let cell =
-                    |x: usize, y: usize| if x < width && y < height { cells[y * width + x] } else { 0 };
-                for y in 0..=height {
-                    interrupt.check(DURING)?;
-                    values.extend((0..=width).map(|x| {
-                        let (left, above) = (x.wrapping_sub(1), y.wrapping_sub(1));
-                        let free = cell(x, y).min(cell(left, y)).min(cell(x, above)).min(cell(left, above));
-                        [free, point(x, y)]
-                    }));
-                }
+        match self.repaired::<P>(change, interrupt)? {
+            Some(repaired) => Ok(repaired),
+            None => Self::new::<P>(change.after(), interrupt),
+        }
+    }
+
+    /// That of the map after a change, unless too many values change.
+    fn repaired<P: Placement>(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, Interrupted> {
+        let mut values = self.values.edit();
+        for layer in [Layer::Free, Layer::Corner] {
+            if !Repair::new::<P>(&mut values, change.after(), layer).follow::<P>(change, interrupt)? {
+                return Ok(None);
             }
         }
-        Ok(Self { values: values.into_boxed_slice() })
+        Ok(Some(Self { values: values.finish() }))
     }
 
     #[inline]
@@ -107,32 +156,28 @@ impl Clearance {
 
 /// Whether of the four cells around a grid point, row by row, exactly one is blocked, or two that touch
 /// diagonally.
-pub(crate) fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
-    match [nw, ne, sw, se].into_iter().filter(|&blocked| blocked).count() {
-        1 => true,
-        2 => nw == se,
-        _ => false,
-    }
+pub(crate) const fn is_convex_corner([nw, ne, sw, se]: [bool; 4]) -> bool {
+    // Neither diagonal is free with the other one, nor do both have a blocked cell.
+    (nw | se) != (ne | sw)
 }
 
-/// The Chebyshev distance of each position to the nearest marked one, in two passes; `outside` is the
-/// distance of the positions beyond the edges.
-fn distances(
-    (width, height): (usize, usize),
-    outside: u8,
-    interrupt: &Interrupt,
-    marked: impl Fn(usize, usize) -> bool,
-) -> Result<Vec<u8>, Interrupted> {
-    // With a frame around them, positions at the edges need no case of their own.
+/// The distance of each vertex to the nearest marked one, in two passes, with a frame of one position on all
+/// sides: with that, vertices at the edges need no case of their own.
+fn distances<P: Placement>(grid: &Grid, layer: Layer, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
+    let (width, height) = P::vertices(grid);
+    let (width, height) = (width as usize, height as usize);
     let stride = width + 2;
-    let mut values = filled(outside, stride * (height + 2), interrupt)?;
+    let mut values = filled(layer.outside(), stride * (height + 2), interrupt)?;
     for y in 1..=height {
         interrupt.check(DURING)?;
-        for x in 1..=width {
-            let at = y * stride + x;
+        let mut marked = 0;
+        for x in 0..width {
+            marked =
+                if x % 64 == 0 { layer.marked::<P>(grid, (x as i32, y as i32 - 1)) } else { marked >> 1 };
+            let at = y * stride + x + 1;
             let above = &values[at - stride - 1..=at - stride + 1];
             let least = above.iter().fold(values[at - 1], |least, &value| least.min(value));
-            values[at] = if marked(x - 1, y - 1) { 0 } else { least.saturating_add(1) };
+            values[at] = if marked & 1 == 1 { 0 } else { least.saturating_add(1) };
         }
     }
     for y in (1..=height).rev() {
@@ -144,27 +189,28 @@ fn distances(
             values[at] = values[at].min(least.saturating_add(1));
         }
     }
-    let mut within = Vec::with_capacity(width * height);
-    for y in 1..=height {
-        interrupt.check(DURING)?;
-        within.extend_from_slice(&values[y * stride + 1..=y * stride + width]);
-    }
-    Ok(within)
+    Ok(values)
+}
+
+/// The rows of so many vertices, without the frame.
+fn rows(values: &[u8], width: u32) -> impl Iterator<Item = &[u8]> {
+    let width = width as usize;
+    values.chunks_exact(width + 2).skip(1).map(move |row| &row[1..=width])
 }
 
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid, Vertex};
+    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, GridGraph, Vertex};
     use mediant_moves::FiniteK;
-    use mediant_oracle::{seeds, suite_grid};
+    use mediant_oracle::{Rng, caves, noise, on_all_cores, random_change, rooms, seeds, suite_grid};
 
     use super::*;
 
     fn check<P: Placement>(grid: &Arc<Grid>, rule: P::Rule, seed: u64) {
         let graph = GridGraph::<P>::new(Arc::clone(grid), FiniteK::N4, rule).unwrap();
-        let clearance = Clearance::new(&graph, &Interrupt::NEVER).unwrap();
+        let clearance = Clearance::new::<P>(grid, &Interrupt::NEVER).unwrap();
         for id in (0..graph.vertex_count() as u32).map(VertexId) {
             let Vertex { x, y } = graph.vertex(id);
             let free = |c: u32| {
@@ -187,8 +233,45 @@ mod tests {
         }
         let open = Arc::new(Grid::from_fn(600, 530, |_, _| false).unwrap());
         let graph = GridGraph::<Centers>::new(open, FiniteK::N4, CornerRule::Never).unwrap();
-        let clearance = Clearance::new(&graph, &Interrupt::NEVER).unwrap();
+        let clearance = Clearance::new::<Centers>(graph.grid(), &Interrupt::NEVER).unwrap();
         let at = |x, y| clearance.of(graph.id(Vertex::new(x, y)).unwrap()).free;
         assert_eq!([at(0, 0), at(9, 300), at(300, 253), at(300, 265)], [1, 10, 254, 255]);
+    }
+
+    fn large(seed: u64) -> Grid {
+        let rng = &mut Rng::new(seed);
+        match seed % 6 {
+            0 => suite_grid(seed).0,
+            1 => rooms(rng, 170, 140),
+            2 => caves(rng, 166, 150),
+            3 => noise(rng, 640, 90, 0),
+            4 => noise(rng, 264, 163, 1),
+            _ => noise(rng, 150, 130, 20),
+        }
+    }
+
+    /// Of so many changes, how many were not too large.
+    fn follows<P: Placement>(seed: u64, steps: u32) -> u32 {
+        let rng = &mut Rng::new(seed);
+        let (mut map, never, mut repaired) = (Arc::new(large(seed)), &Interrupt::NEVER, 0);
+        let mut clearance = Clearance::new::<P>(&map, never).unwrap();
+        for step in 0..steps {
+            let change = random_change(rng, &map);
+            let new = Clearance::new::<P>(change.after(), never).unwrap();
+            repaired += u32::from(clearance.repaired::<P>(&change, never).unwrap().is_some());
+            let next = clearance.after::<P>(&change, never).unwrap();
+            let wrong = next.values.iter().zip(&*new.values).position(|(one, other)| one != other);
+            assert_eq!(wrong, None, "seed {seed}, edit {step}: {:?}", change.cells());
+            (clearance, map) = (next, Arc::clone(change.after()));
+        }
+        repaired
+    }
+
+    #[test]
+    fn clearance_follows_edits() {
+        on_all_cores(seeds(18), |seed| {
+            let repaired = follows::<Centers>(seed, 20) + follows::<Corners>(seed, 20);
+            assert!(seed % 6 == 0 || repaired > 12, "seed {seed}: {repaired} of 40");
+        });
     }
 }

@@ -94,6 +94,8 @@ pub(crate) struct ForcedTrees {
     pub(crate) needed: Vec<u32>,
     /// How many rows up and down from the vertex the trees look.
     reach: i32,
+    /// How many columns to the left and to the right.
+    reach_aside: i32,
 }
 
 /// A move that may be a forced successor, with the alternatives to it, the best one first.
@@ -116,6 +118,7 @@ impl ForcedTrees {
             steps: Vec::new(),
             needed: Vec::new(),
             reach: 0,
+            reach_aside: 0,
         };
         for footprint in &moves.footprints {
             let free = trees.zone(&footprint.free.iter().copied().collect());
@@ -190,8 +193,9 @@ impl ForcedTrees {
         let begin = self.masks.len() as u32;
         let (first, rows) = cells.rows();
         self.masks.extend(rows);
-        for (_, y) in cells.iter() {
+        for (x, y) in cells.iter() {
             self.reach = self.reach.max(y.abs());
+            self.reach_aside = self.reach_aside.max(x.abs());
         }
         Zone { begin, first: first as u8, rows: rows.len() as u8, never: false }
     }
@@ -246,6 +250,12 @@ impl ForcedTrees {
             }
         }
         true
+    }
+
+    /// How far from a vertex, along either axis, a cell can be that decides about a forced successor. (Of a
+    /// pair of which a move requires one, both are next to cells that it sweeps.)
+    pub(crate) fn reach(&self) -> u32 {
+        (self.reach.max(self.reach_aside) + 1).unsigned_abs()
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {

@@ -64,7 +64,8 @@
 //! For k ≥ 4 two bytes a vertex store the distances to the nearest obstacle and to the nearest corner of one
 //! (module `clearance`). Far from corners, also along walls, there are no forced successors; on open ground
 //! not even legality is tested. A cache keeps the trees' results by vertex and arriving move (module
-//! `forced_cache`).
+//! `forced_cache`). Both follow an edit of the map by work that follows the edit: distances change where they
+//! must, and versions of the map share what is known of vertices that the edit does not reach.
 //!
 //! # Closed gaps
 //!

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Vertex, uninterrupted};
+use mediant_grid::{
+    Change, Grid, GridGraph, Identity, Interrupt, Interrupted, Mismatch, Placement, Vertex, uninterrupted,
+};
 use mediant_moves::FiniteK;
 
 use super::{
@@ -26,9 +28,9 @@ pub(crate) fn prunes<P: Placement>(graph: &GridGraph<P>) -> bool {
 #[derive(Debug)]
 pub struct Pruning<P: Placement> {
     identity: Identity,
-    rule: Arc<CanonicalRule<P>>,
+    pub(super) rule: Arc<CanonicalRule<P>>,
     clearance: Option<Clearance>,
-    forced_cache: Option<ForcedCache>,
+    pub(super) forced_cache: Option<ForcedCache>,
 }
 
 /// The pruning rule at one vertex for one arriving move.
@@ -88,11 +90,49 @@ impl<P: Placement> Pruning<P> {
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let is_long = graph.k() > FiniteK::N8;
-        let clearance = is_long.then(|| Clearance::new(graph, interrupt)).transpose()?;
+        let clearance = is_long.then(|| Clearance::new::<P>(graph.grid(), interrupt)).transpose()?;
         let has_trees = matches!(rule.lookup, ForcedLookup::Trees(_));
         let cache = || ForcedCache::new(graph.vertex_count(), graph.k().get(), interrupt);
         let forced_cache = has_trees.then(cache).transpose()?;
         Ok(Self { identity: graph.identity(), rule, clearance, forced_cache })
+    }
+
+    /// The rule on the grid graph after a change of the map, by work that follows the change. It finds what a
+    /// new one finds.
+    ///
+    /// Of what searches have found out, both keep and share what the change leaves as it is.
+    ///
+    /// # Errors
+    /// [`Interrupted`]; within, [`Mismatch`] if the change is not from the map of this rule to that of the
+    /// grid graph, or if that has other rules of motion or another k.
+    pub fn repaired(
+        &self,
+        graph: &GridGraph<P>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Result<Self, Mismatch>, Interrupted> {
+        let on = |map: &Grid| Identity { map: Some(map.id()), ..self.identity };
+        let fits =
+            self.identity.check("the pruning rule", ("the map before the change", on(change.before())));
+        let fits = fits.and_then(|()| {
+            on(change.after()).check("the map after the change", ("the grid graph", graph.identity()))
+        });
+        if let Err(mismatch) = fits {
+            return Ok(Err(mismatch));
+        }
+        let rule = Arc::clone(&self.rule);
+        if change.before().id().size() != change.after().id().size() {
+            return Self::prepare(graph, rule, interrupt).map(Ok);
+        }
+        let clearance =
+            self.clearance.as_ref().map(|known| known.after::<P>(change, interrupt)).transpose()?;
+        let forced_cache = match (&self.forced_cache, &rule.lookup) {
+            (Some(known), ForcedLookup::Trees(trees)) => {
+                Some(known.after::<P>(change, trees.reach(), interrupt)?)
+            }
+            _ => None,
+        };
+        Ok(Ok(Self { identity: graph.identity(), rule, clearance, forced_cache }))
     }
 
     /// The identity of its grid graph: map, rules of motion and k.
