@@ -1,10 +1,13 @@
 //! Agents of a size, and paths that keep off walls.
 
-use std::{ops::Range, sync::Arc};
+mod kept;
 
-use mediant_grid::{Clearance, Fit, Grid, Outside, Rectangle, Vertex};
+use std::sync::Arc;
+
+use mediant_grid::{Clearance, Fit, Outside, Vertex};
 use mediant_search::{Answer, Ends, Limit, Limits, Path, Query};
 
+pub use self::kept::{Disc, Square};
 use crate::{choice::Choice, error::Error, map::Map, motion::Motion, space::Space};
 
 impl Map {
@@ -45,7 +48,7 @@ impl Map {
     /// As for [`for_disc`](Self::for_disc).
     pub fn disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Disc, Error> {
         let motion = motion.into();
-        Ok(Disc { obstacles: self.clone(), map: self.for_disc(radius, motion)?, radius, motion })
+        Disc::new(self, radius, motion)
     }
 
     /// The map of an agent that occupies n × n cells. Its place is its top left cell: a cell is free if all
@@ -58,106 +61,20 @@ impl Map {
         Ok(self.grid().for_square(n)?.into())
     }
 
-    /// The distance of each cell to the nearest obstacle, and the maps of discs of all radii.
+    /// The map of a square, as [`for_square`](Self::for_square) has it, together with this one, so that it
+    /// follows edits of obstacles.
+    ///
+    /// # Errors
+    /// As for [`for_square`](Self::for_square).
+    pub fn square(&self, n: u32) -> Result<Square, Error> {
+        Square::new(self, n)
+    }
+
+    /// The distance of each cell to the nearest obstacle, and the maps of discs of all radii. After an edit
+    /// of the map it follows by [`Clearance::after`].
     #[must_use]
     pub fn clearance(&self, fit: Fit, outside: Outside) -> Clearance {
         Clearance::new(Arc::clone(self.grid()), fit, outside)
-    }
-}
-
-/// A disc among obstacles that change: the map of the obstacles, and that of the disc ([`Map::disc`]).
-///
-/// ```
-/// use mediant::{K, Map, Motion, Rectangle};
-///
-/// let motion = Motion::centers(K::N8);
-/// let disc = Map::from_fn(40, 9, |_, _| false)?.disc(1.5, motion)?;
-/// let post = Rectangle::new(20, 4, 1, 1);
-/// let disc = disc.edit(post, |_, _| true)?;
-/// // The disc keeps off the post.
-/// assert!(disc.map().is_blocked((21, 4)) && disc.obstacles().is_free((21, 4)));
-/// let space = disc.map().space(motion)?;
-/// # Ok::<(), mediant::Error>(())
-/// ```
-#[derive(Clone, Debug)]
-pub struct Disc {
-    obstacles: Map,
-    map: Map,
-    radius: f64,
-    motion: Motion,
-}
-
-impl Disc {
-    /// Where the disc may be: the map to search.
-    #[must_use]
-    pub const fn map(&self) -> &Map {
-        &self.map
-    }
-
-    /// The map of the obstacles.
-    #[must_use]
-    pub const fn obstacles(&self) -> &Map {
-        &self.obstacles
-    }
-
-    /// The radius of the disc, in cells.
-    #[must_use]
-    pub const fn radius(&self) -> f64 {
-        self.radius
-    }
-
-    /// The disc among other obstacles in a rectangle: see [`Map::edit`]. The work follows the rectangle and
-    /// the radius, not the map.
-    ///
-    /// # Errors
-    /// As for [`Map::edit`].
-    pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
-        let obstacles = self.obstacles.edit(at, blocked)?;
-        let map = match self.around(&obstacles, at)? {
-            Some(map) => map,
-            None => obstacles.for_disc(self.radius, self.motion)?,
-        };
-        Ok(Self { obstacles, map, ..*self })
-    }
-
-    /// The disc's map where only what is near a rectangle is measured anew; `None` if that is most of the
-    /// map.
-    fn around(&self, obstacles: &Map, at: Rectangle) -> Result<Option<Map>, Error> {
-        let sides = [(at.x, at.width, obstacles.width()), (at.y, at.height, obstacles.height())];
-        // An obstacle farther than this from every point of a cell cannot touch the disc. It saturates.
-        let reach = self.radius.ceil() as i64 + 1;
-        // The cells whose room may change, and those whose obstacles decide it: those beyond the map are
-        // blocked.
-        let [columns, rows] = sides.map(|(first, count, side)| {
-            let (first, end) = (i64::from(first), i64::from(first) + i64::from(count));
-            let changed = (first - reach).max(0)..(end + reach).min(i64::from(side));
-            let read = changed.start.saturating_sub(reach)..changed.end.saturating_add(reach);
-            (changed, read)
-        });
-        let area = |columns: &Range<i64>, rows: &Range<i64>| {
-            (columns.end - columns.start).saturating_mul(rows.end - rows.start)
-        };
-        let whole = i64::from(obstacles.width()) * i64::from(obstacles.height());
-        if reach > i64::from(Grid::MAX_SIDE) || area(&columns.1, &rows.1) > whole {
-            return Ok(None);
-        }
-        // All of these are near the map, so 32 bits hold them.
-        let (left, top) = (columns.1.start as i32, rows.1.start as i32);
-        let side = |range: &Range<i64>| (range.end - range.start) as u32;
-        let near = Grid::from_fn(side(&columns.1), side(&rows.1), |x, y| {
-            obstacles.is_blocked((left + x as i32, top + y as i32))
-        })?;
-        let Motion { k, rules, .. } = self.motion;
-        let room =
-            Clearance::new(Arc::new(near), Fit::exact(rules, k), Outside::Open).for_disc(self.radius)?;
-        let changed = Rectangle {
-            x: columns.0.start as u32,
-            y: rows.0.start as u32,
-            width: side(&columns.0),
-            height: side(&rows.0),
-        };
-        let blocked = |x: u32, y: u32| room.is_blocked(x as i32 - left, y as i32 - top);
-        Ok(Some(self.map.grid().with_rectangle(changed, blocked).into()))
     }
 }
 

@@ -67,6 +67,11 @@ impl Change {
     pub fn to(before: &Space, map: &Map) -> Self {
         let [old, new] = [before.map(), map].map(|map| Arc::clone(map.grid()));
         let change = GridChange::between(old, Arc::clone(&new)).unwrap_or_else(|| GridChange::new(new));
+        Self::of_grids(before, change)
+    }
+
+    /// The change of a grid, from a space of the grid before it.
+    pub(crate) fn of_grids(before: &Space, change: GridChange) -> Self {
         Self { before: before.clone(), after: OnceLock::new(), change }
     }
 

@@ -114,7 +114,9 @@
 //! `docs/performance.md`). [`Index::finish`] makes them anew, where and when you want it: on another thread,
 //! after some edits. [`Planner::searched_by`] tells by which engine a query was answered.
 //!
-//! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit.
+//! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit. So do distances to
+//! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`], whose
+//! `change` is that of their spaces.
 //!
 //! An edit of one cell takes 4 to 19 µs in the mean with all of that on 512 × 512 cells, 9 to 39 µs up to
 //! 4096 × 4096; with HPA* 46 to 136 µs, and with JPS+ about as long. A path is [checked](Change::check) against
@@ -148,7 +150,7 @@
 //! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
 //! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
 //! | lead many agents to one goal | [`Field`] |
-//! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Space::widest_path`] |
+//! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Square`], [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`], [`Change::check`] |
 //! | replan only when that is needed | [`Planner::replan`] |
@@ -225,7 +227,7 @@ mod text;
 mod trace;
 mod within;
 
-pub use agent::Disc;
+pub use agent::{Disc, Square};
 pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;

@@ -15,7 +15,7 @@
 //! Where columns differ at random, most parabolas are nowhere lowest, and which ones cannot be predicted. So
 //! most of these are left out beforehand, without branches: those that near ones hide.
 
-use super::{Fit, Outside, columns::NONE, sites::Sites};
+use super::{Fit, columns::NONE};
 
 /// A parabola of the envelope, F(x) = (A·x + B)² + constant − 2A²·site·x.
 #[derive(Clone, Copy, Default)]
@@ -39,17 +39,17 @@ pub(super) struct Envelope {
 
 impl Envelope {
     /// Squared distances from distances along columns; [`u32::MAX`] where there is no site or none as near.
-    pub(super) fn row(&mut self, sites: Sites<'_>, columns: &[u16], squared: &mut [u32]) {
+    /// Centers also take the distances along the columns just beyond the first and the last one.
+    pub(super) fn row(&mut self, fit: Fit, beyond: [u16; 2], columns: &[u16], squared: &mut [u32]) {
         self.distances.clear();
-        match sites.fit {
+        match fit {
             Fit::WholeCells => {
                 self.distances.extend_from_slice(columns);
                 self.write::<1, 0>(|g| u32::from(g) * u32::from(g), squared);
             }
             Fit::Centers => {
-                let outside = if sites.outside == Outside::Blocked { 0 } else { NONE };
-                let [first, last] =
-                    [columns.first(), columns.last()].map(|g| outside.min(*g.unwrap_or(&outside)));
+                let [first, last] = [(columns.first(), beyond[0]), (columns.last(), beyond[1])]
+                    .map(|(g, beyond)| beyond.min(*g.unwrap_or(&beyond)));
                 self.distances.push(first);
                 self.distances.extend(columns.windows(2).map(|pair| pair[0].min(pair[1])));
                 self.distances.push(last);

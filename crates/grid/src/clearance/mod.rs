@@ -14,6 +14,7 @@ mod envelope;
 mod exact;
 mod fit;
 mod radii;
+mod repair;
 mod sites;
 mod square;
 mod transform;
@@ -22,7 +23,7 @@ mod widest;
 use std::sync::Arc;
 
 use crate::{
-    Grid, PlacementKind, Vertex,
+    Grid, PlacementKind, Versioned, Vertex,
     interrupt::{Interrupt, Interrupted, uninterrupted},
 };
 
@@ -107,7 +108,7 @@ pub struct Clearance {
     unlimited: bool,
     /// The squared distance of each center, in half cells, or of each corner vertex, in cells. See
     /// [`transform`].
-    squared: Box<[u32]>,
+    squared: Versioned<u32>,
 }
 
 impl Clearance {
@@ -131,7 +132,7 @@ impl Clearance {
         let squared = transform::squared_distances(sites, interrupt)?;
         let (width, height) = (u64::from(grid.width()), u64::from(grid.height()));
         let unlimited = outside == Outside::Open && grid.free_cells() == width * height;
-        Ok(Self { fit, outside, unlimited, squared, grid })
+        Ok(Self { fit, outside, unlimited, squared: squared.into_vec().into(), grid })
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{Clearance, Fit, Grid, Outside, SizeError, Vertex};
-use mediant_oracle::{Rng, caves, noise, seeds, suite_grid};
+use mediant_oracle::{Rng, caves, noise, on_all_cores, random_change, rooms, seeds, suite_grid};
 
 pub(crate) const KINDS: [(Fit, Outside); 4] = [
     (Fit::Centers, Outside::Blocked),
@@ -202,4 +202,42 @@ fn radii_that_are_none_are_refused() {
     }
     assert_eq!(clearance.for_disc(f64::MAX).expect("a radius").free_cells(), 0);
     assert_eq!(clearance.for_disc(f64::from_bits(1)).expect("a radius").free_cells(), 9);
+}
+
+/// Chains of edits: the squares of all points, and whether there is any obstacle.
+#[test]
+fn clearances_follow_edits() {
+    on_all_cores(seeds(40), |seed| {
+        let rng = &mut Rng::new(seed);
+        let first = match seed % 8 {
+            0 => suite_grid(seed).0,
+            1 => rooms(rng, 90, 70),
+            2 => caves(rng, 66, 70),
+            3 => noise(rng, 90, 80, 0),
+            4 => noise(rng, 120, 70, 1),
+            5 => noise(rng, 3, 200, 2),
+            6 => noise(rng, 200, 5, 3),
+            _ => noise(rng, 65, 64, 20),
+        };
+        for (fit, outside) in KINDS {
+            let mut map = Arc::new(first.clone());
+            let mut clearance = Clearance::new(Arc::clone(&map), fit, outside);
+            for step in 0..20 {
+                let change = random_change(rng, &map);
+                clearance = clearance.after(&change);
+                map = Arc::clone(change.after());
+                let new = Clearance::new(Arc::clone(&map), fit, outside);
+                for at in (0..=map.height() as i32)
+                    .flat_map(|y| (0..=map.width() as i32).map(move |x| Vertex::new(x, y)))
+                {
+                    let [one, other] = [&clearance, &new].map(|known| known.distance(at).to_bits());
+                    let said =
+                        || format!("{fit:?}, {outside:?}, seed {seed}, edit {step}: {:?}", change.cells());
+                    assert!(one == other, "{at}, {}", said());
+                }
+                assert_eq!(clearance.for_disc(f64::MAX).ok(), new.for_disc(f64::MAX).ok());
+                assert_eq!(clearance.grid().id(), map.id());
+            }
+        }
+    });
 }

@@ -148,13 +148,7 @@ fn paths_on_edited_maps_are_those_of_new_maps() {
 
 /// Whether the index of a setup follows an edit.
 fn is_repaired(setup: Setup) -> bool {
-    use Engine as E;
-    match setup.engine.kind() {
-        E::AStar | E::Dijkstra | E::Wavefront | E::Theta | E::LazyTheta => true,
-        E::Canonical | E::Jps | E::JpsBlock | E::JpsPlus => true,
-        E::Anya | E::Subgoal | E::Hpa | E::Chpa => true,
-        _ => false,
-    }
+    setup.engine.kind() != Engine::SubgoalTheta
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as

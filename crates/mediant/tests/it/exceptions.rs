@@ -7,7 +7,7 @@ use mediant::{
     Rectangle, Rules, Setup, Vertex,
 };
 use mediant_grid::Grid;
-use mediant_oracle::{Rng, on_all_cores, random_change, random_grid, random_vertex, seeds};
+use mediant_oracle::{Rng, noise, on_all_cores, random_change, random_grid, random_vertex, seeds};
 
 use super::k;
 
@@ -170,4 +170,58 @@ fn a_disc_keeps_off_new_obstacles() {
     let maps = seeds.end as usize;
     let differ: usize = on_all_cores(seeds, check_disc).into_iter().sum();
     assert!(differ > 10 * maps, "{differ} cells");
+}
+
+/// Discs and squares through chains of edits: their maps are those made anew, and indexes on them follow.
+fn check_agents(seed: u64) -> usize {
+    let rng = &mut Rng::new(seed);
+    let (width, height) = (5 + rng.below(60), 5 + rng.below(60));
+    let first = Map::from(noise(rng, width, height, 3));
+    let motion = Motion::new(K::N8, Rules::ALL[seed as usize % Rules::ALL.len()]);
+    let (radius, side) = (f64::from(rng.below(12)) / 4.0, 1 + rng.below(4));
+    let (mut disc, mut square) =
+        (first.disc(radius, motion).expect("a radius"), first.square(side).expect("a side"));
+    let mut spaces = [disc.map(), square.map()].map(|map| map.space(motion).expect("a space"));
+    let mut indexes = spaces.each_ref().map(|space| space.prepare(Engine::AStar).expect("an index"));
+    let (old, mut differ) = (spaces.clone(), 0);
+    for step in 0..8 {
+        let obstacles = disc.obstacles().space(motion).expect("a space");
+        let change = random_change(rng, obstacles.map().grid());
+        let change = Change::to(&obstacles, &Arc::clone(change.after()).into());
+        // One follows the change, the other takes its cells.
+        disc = disc.after(&change).expect("it follows");
+        let blocked = |x: u32, y: u32| change.after().map().is_blocked((x as i32, y as i32));
+        for &at in change.cells() {
+            square = square.edit(at, blocked).expect("it is on the map");
+            let change = square.change(&spaces[1]);
+            indexes[1] = indexes[1].repair(&change).expect("it follows");
+            spaces[1] = change.after().clone();
+        }
+        let change = disc.change(&spaces[0]);
+        differ += change.cells().len();
+        indexes[0] = indexes[0].repair(&change).expect("it follows");
+        spaces[0] = change.after().clone();
+        let said = format!("seed {seed}, edit {step}, radius {radius}, side {side}");
+        let anew = [disc.obstacles().for_disc(radius, motion), square.obstacles().for_square(side)];
+        for ((space, index), anew) in spaces.iter().zip(&indexes).zip(anew) {
+            assert_eq!(space.map(), &anew.expect("a size"), "{said}");
+            assert_eq!(index.identity(), space.identity(), "{said}");
+        }
+        assert_eq!(disc.obstacles(), square.obstacles(), "{said}");
+        // A space that is older than the last edit.
+        assert_eq!(disc.change(&old[0]).after().map(), disc.map(), "{said}");
+        assert_eq!(square.change(&old[1]).after().map(), square.map(), "{said}");
+        // A change of another map leads to the map after it.
+        let moved = disc.after(&Change::new(&old[1])).expect("a map");
+        assert_eq!(moved.map(), &old[1].map().for_disc(radius, motion).expect("a radius"), "{said}");
+    }
+    differ
+}
+
+#[test]
+fn discs_and_squares_follow_changes() {
+    let seeds = seeds(60);
+    let maps = seeds.end as usize;
+    let differ: usize = on_all_cores(seeds, check_agents).into_iter().sum();
+    assert!(differ > 3 * maps, "{differ} rectangles");
 }

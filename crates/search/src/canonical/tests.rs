@@ -15,7 +15,7 @@ use super::{
     order::natural,
     planner::{Canonical, CanonicalMoves},
     pruning::Pruning,
-    rule::{CanonicalRule, ForcedLookup},
+    rule::ForcedLookup,
 };
 use crate::{
     Counters, Ends, Hk, Planner,
@@ -113,16 +113,17 @@ impl<P: Placement> Version<P> {
     }
 }
 
-fn check_chain<P: Placement>(rule: &Arc<CanonicalRule<P>>, map: Grid, seed: u64) -> usize {
+/// Returns how many facts were kept.
+fn check_chain<P: Placement>(k: FiniteK, rule: P::Rule, map: Grid, seed: u64) -> usize {
     let rng = &mut Rng::new(seed);
-    let version = |grid: &Arc<Grid>| GridGraph::new(Arc::clone(grid), rule.k, rule.rule).unwrap();
+    let version = |grid: &Arc<Grid>| GridGraph::<P>::new(Arc::clone(grid), k, rule).unwrap();
     let graph = Arc::new(version(&Arc::new(map)));
-    let pruning = Arc::new(Pruning::with_rule(&graph, Arc::clone(rule)).unwrap());
+    let pruning = Arc::new(Pruning::new(&graph));
     let mut last = Version { graph, pruning };
     let mut kept = 0;
     for step in 0..5 {
         let change = random_change(rng, last.graph.grid());
-        let said = format!("k = {}, {}, seed {seed}, edit {step}", rule.k, last.graph.rules());
+        let said = format!("k = {k}, {}, seed {seed}, edit {step}", last.graph.rules());
         last.check_searches(rng, &said);
         let graph = Arc::new(version(change.after()));
         let pruning = last.pruning.repaired(&graph, &change, &Interrupt::NEVER).unwrap().unwrap();
@@ -142,11 +143,7 @@ fn check_chain<P: Placement>(rule: &Arc<CanonicalRule<P>>, map: Grid, seed: u64)
 #[test]
 fn rules_follow_edits() {
     for k in [4, 5, 7, 9].map(|k| FiniteK::new(k).unwrap()) {
-        let rules = [CornerRule::Never, CornerRule::One, CornerRule::Always];
-        let centers = rules.map(|rule| Arc::new(CanonicalRule::<Centers>::new(k, rule)));
-        let gaps = [DiagonalGap::Open, DiagonalGap::Closed];
-        let corners = gaps.map(|gap| Arc::new(CanonicalRule::<Corners>::new(k, gap)));
-        let few = if k.get() < 7 { 4 } else { 2 };
+        let few = if k.get() < 7 { 4 } else { 1 };
         on_all_cores(seeds(few), |seed| {
             let rng = &mut Rng::new(seed);
             let map = match (seed + u64::from(k.get())) % 4 {
@@ -155,9 +152,11 @@ fn rules_follow_edits() {
                 2 => caves(rng, 45, 44),
                 _ => noise(rng, 40, 30, 10),
             };
-            let kept = check_chain(&centers[seed as usize % 3], map.clone(), seed)
-                + check_chain(&corners[seed as usize % 2], map, seed);
-            assert!(kept > 0 || k.get() > 8 || seed > 3, "k = {k}, seed {seed}");
+            let corner = [CornerRule::Never, CornerRule::One, CornerRule::Always][seed as usize % 3];
+            let gap = [DiagonalGap::Closed, DiagonalGap::Open][seed as usize % 2];
+            let kept = check_chain::<Centers>(k, corner, map.clone(), seed)
+                + check_chain::<Corners>(k, gap, map, seed);
+            assert!(kept > 0 || k.get() > 8 || (seed + u64::from(k.get())) % 4 == 0, "k = {k}, seed {seed}");
         });
     }
 }
