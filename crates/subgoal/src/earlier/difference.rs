@@ -2,21 +2,21 @@
 
 use mediant_grid::{Grid, Rectangle};
 
-/// Cells by (row, column), in order, each once.
+/// Cells row by row, each once: the row in the upper half of a number, the column in the lower.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Cells(Vec<(u16, u16)>);
+pub(super) struct Cells(Vec<u32>);
 
 impl Cells {
     /// The cells in which two maps of the same size differ, if they differ in these and in the rectangles
     /// alone; `None` for more than `most`.
     pub(super) fn after(&self, [then, now]: [&Grid; 2], at: &[Rectangle], most: usize) -> Option<Self> {
-        let differs = |&(y, x): &(u16, u16)| {
-            let (x, y) = (i32::from(x), i32::from(y));
+        let differs = |&cell: &u32| {
+            let (x, y) = place(cell);
             then.is_blocked(x, y) != now.is_blocked(x, y)
         };
-        let mut cells: Vec<(u16, u16)> = self.0.iter().copied().filter(differs).collect();
+        let mut cells: Vec<u32> = self.0.iter().copied().filter(differs).collect();
         for &Rectangle { x, y, width, height } in at {
-            let within = (y..y + height).flat_map(|y| (x..x + width).map(move |x| (y as u16, x as u16)));
+            let within = (y..y + height).flat_map(|y| (x..x + width).map(move |x| y << 16 | x));
             cells.extend(within.filter(differs));
             // A cell can be in several rectangles.
             if cells.len() > most {
@@ -34,7 +34,7 @@ impl Cells {
 
     /// The cells, by (column, row).
     pub(super) fn iter(&self) -> impl Iterator<Item = (i32, i32)> {
-        self.0.iter().map(|&(y, x)| (x.into(), y.into()))
+        self.0.iter().map(|&cell| place(cell))
     }
 
     pub(super) const fn len(&self) -> usize {
@@ -48,4 +48,9 @@ impl Cells {
     pub(super) const fn memory_bytes(&self) -> usize {
         size_of_val(self.0.as_slice())
     }
+}
+
+/// The column and the row. No side of a map has more than 2¹⁵ cells.
+const fn place(cell: u32) -> (i32, i32) {
+    ((cell & 0xFFFF) as i32, (cell >> 16) as i32)
 }

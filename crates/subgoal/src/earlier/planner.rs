@@ -18,7 +18,8 @@ use crate::{
 /// still prove the answer, and by another planner on the present map, `other`, where they do not.
 ///
 /// **Ties.** Of equally short paths it takes that of the planner which answers. So the same query may give
-/// another path than on labels of the present map, of the same cost.
+/// another path than on labels of the present map, of the same cost. An observer is told of the other planner's
+/// searches alone.
 pub struct EarlierSearch<P: SubgoalPlacement, F> {
     map: Arc<EarlierMap<P>>,
     search: Search<P>,
@@ -50,11 +51,11 @@ impl<P: SubgoalPlacement> Search<P> {
     }
 
     /// A shortest path and its cost on the earlier map.
-    fn solve(&mut self, query: Ends, observer: &mut impl Observer) -> Option<(Path, Cost)> {
+    fn solve(&mut self, query: Ends) -> Option<(Path, Cost)> {
         match self {
             Self::Labels(search) => search.solve_with_cost(query),
             Self::Graph(search) => {
-                let path = search.solve_observed(query, observer).ok()?.into_path()?;
+                let path = search.solve(query).ok()?.into_path()?;
                 let cost = search.guarantee().cost_along(path.waypoints());
                 Some((path, cost))
             }
@@ -120,7 +121,7 @@ impl<P: SubgoalPlacement, F: Planner> EarlierSearch<P, F> {
     }
 
     /// The path and the cost, if the earlier map proves them.
-    fn proven(&mut self, query: Ends, observer: &mut impl Observer) -> Option<(Path, Cost)> {
+    fn proven(&mut self, query: Ends) -> Option<(Path, Cost)> {
         let Self { map, search, bound, .. } = self;
         let EarlierMap { then, now, closed, .. } = &**map;
         let Ends { start, goal, .. } = query;
@@ -128,7 +129,7 @@ impl<P: SubgoalPlacement, F: Planner> EarlierSearch<P, F> {
         if is_unsure(start) || is_unsure(goal) || !then.connected(start, goal) {
             return None;
         }
-        let (path, cost) = search.solve(query, observer)?;
+        let (path, cost) = search.solve(query)?;
         if !closed.lets_pass(now, &path) {
             return None;
         }
@@ -148,7 +149,7 @@ impl<P: SubgoalPlacement, F: Planner> Planner for EarlierSearch<P, F> {
         if query.ids(&*self.map.now)?.is_none() {
             return Ok(SearchStatus::Unreachable);
         }
-        self.answer = self.proven(query, observer).map(|(path, cost)| (query, path, cost));
+        self.answer = self.proven(query).map(|(path, cost)| (query, path, cost));
         self.is_proven = self.answer.is_some();
         if self.is_proven { Ok(SearchStatus::Found) } else { self.other.begin(query, observer) }
     }

@@ -104,29 +104,75 @@ pub(super) fn opened<P: SubgoalPlacement>(
 fn touching(cells: &[(i32, i32)]) -> Vec<Vec<(i32, i32)>> {
     let find = |(x, y): (i32, i32)| cells.binary_search_by_key(&(y, x), |&(x, y)| (y, x)).ok();
     let mut region_of = vec![usize::MAX; cells.len()];
-    let mut regions = Vec::new();
+    let (mut count, mut found) = (0, Vec::new());
     for number in 0..cells.len() {
         if region_of[number] != usize::MAX {
             continue;
         }
-        let region = regions.len();
-        let (mut found, mut next) = (vec![number], 0);
-        region_of[number] = region;
-        while let Some(&number) = found.get(next) {
-            next += 1;
-            let (x, y) = cells[number];
-            let around = (-1..=1).flat_map(|down| (-1..=1).map(move |right| (x + right, y + down)));
-            for neighbor in around.filter_map(find) {
-                if region_of[neighbor] == usize::MAX {
-                    region_of[neighbor] = region;
-                    found.push(neighbor);
+        region_of[number] = count;
+        found.push(cells[number]);
+        while let Some(cell) = found.pop() {
+            for number in around(cell).filter_map(find) {
+                if region_of[number] == usize::MAX {
+                    region_of[number] = count;
+                    found.push(cells[number]);
                 }
             }
         }
-        found.sort_unstable();
-        regions.push(found.into_iter().map(|number| cells[number]).collect());
+        count += 1;
+    }
+    let mut regions = vec![Vec::new(); count];
+    for (&cell, region) in cells.iter().zip(region_of) {
+        regions[region].push(cell);
     }
     regions
+}
+
+/// A cell and the eight around it.
+fn around((x, y): (i32, i32)) -> impl Iterator<Item = (i32, i32)> {
+    (-1..=1).flat_map(move |down| (-1..=1).map(move |right| (x + right, y + down)))
+}
+
+/// Vertices as numbers, sorted, each once; by rows, or `by_columns`. (All places are sorted as numbers: each
+/// type that is sorted takes the code of a sort.)
+fn sorted(places: impl Iterator<Item = (i32, i32)>, by_columns: bool) -> Vec<u32> {
+    let number = |(x, y): (i32, i32)| if by_columns { (x << 16 | y) as u32 } else { (y << 16 | x) as u32 };
+    let mut numbers: Vec<u32> = places.map(number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
+}
+
+/// Contacts at vertices, row by row, on no flat yet.
+fn without_flats(places: impl Iterator<Item = (i32, i32)>) -> Vec<Contact> {
+    let at = |number: u32| Vertex::new((number & 0xFFFF) as i32, (number >> 16) as i32);
+    let numbers = sorted(places, false).into_iter();
+    numbers.map(|number| Contact { at: at(number), flats: [NO_FLAT; 4] }).collect()
+}
+
+/// Lays flats of a kind on contacts: a run of places on a line is one, and with each place the contact `more`
+/// places on lies there. `count` is the number of flats so far.
+fn lay_flats(
+    contacts: &mut [Contact],
+    places: impl Iterator<Item = (i32, i32)>,
+    (kind, by_columns, more): (usize, bool, i32),
+    count: &mut u32,
+) {
+    let mut last = None;
+    for number in sorted(places, by_columns) {
+        if last.is_some_and(|last| last + 1 != number) {
+            *count += 1;
+        }
+        last = Some(number);
+        let (line, place) = ((number >> 16) as i32, (number & 0xFFFF) as i32);
+        for place in [place, place + more] {
+            let key = if by_columns { (place, line) } else { (line, place) };
+            if let Ok(found) = contacts.binary_search_by_key(&key, |contact| (contact.at.y, contact.at.x)) {
+                contacts[found].flats[kind] = *count;
+            }
+        }
+    }
+    *count += 1;
 }
 
 /// The contacts of a region, in order.
@@ -138,91 +184,33 @@ fn contacts<P: SubgoalPlacement>([then, now]: [&Grid; 2], region: &[(i32, i32)])
     }
 }
 
-/// At centers: the cells around those of the region that were free before, and still are. A flat is a run of contacts along a row or column.
+/// At centers: the cells around those of the region that were free before, and still are. A flat is a run of
+/// contacts along a row or column.
 fn around_cells(is_free: impl Fn(i32, i32) -> bool, region: &[(i32, i32)]) -> Vec<Contact> {
-    let mut at = Vec::new();
-    for &(x, y) in region {
-        let around = (-1..=1).flat_map(|down| (-1..=1).map(move |right| (x + right, y + down)));
-        at.extend(around.filter(|&(x, y)| is_free(x, y)).map(|(x, y)| Vertex::new(x, y)));
-    }
-    at.sort_unstable_by_key(|at| (at.y, at.x));
-    at.dedup();
-    let mut contacts: Vec<Contact> = at.into_iter().map(|at| Contact { at, flats: [NO_FLAT; 4] }).collect();
-    let mut flats = Flats::default();
-    for contact in &mut contacts {
-        contact.flats[0] = flats.of(0, contact.at.y, contact.at.x);
-    }
-    contacts.sort_unstable_by_key(|contact| (contact.at.x, contact.at.y));
-    for contact in &mut contacts {
-        contact.flats[1] = flats.of(1, contact.at.x, contact.at.y);
+    let cells = || region.iter().flat_map(|&cell| around(cell)).filter(|&(x, y)| is_free(x, y));
+    let (mut contacts, mut count) = (without_flats(cells()), 0);
+    for (kind, by_columns) in [(0, false), (1, true)] {
+        lay_flats(&mut contacts, cells(), (kind, by_columns, 0), &mut count);
     }
     contacts
 }
 
-/// At corners: the vertices of the region at which cells were free before. A flat is a run of sides between cells of
-/// the region and free cells, along a line and with the free cells on one side of it.
+/// At corners: the vertices of the region at which cells were free before. A flat is a run of sides between
+/// cells of the region and free cells, along a line and with the free cells on one side of it.
 fn along_sides(is_free: impl Fn(i32, i32) -> bool, region: &[(i32, i32)]) -> Vec<Contact> {
-    /// The free cell beside a cell, the vertex at which their common side begins, and its direction.
-    const SIDES: [[(i32, i32); 3]; 4] = [
-        [(0, -1), (0, 0), (1, 0)],
-        [(0, 1), (0, 1), (1, 0)],
-        [(-1, 0), (0, 0), (0, 1)],
-        [(1, 0), (1, 0), (0, 1)],
-    ];
-    let mut contacts = Vec::new();
-    let add = |contacts: &mut Vec<Contact>, at: (i32, i32), flat: Option<(usize, u32)>| {
-        let mut flats = [NO_FLAT; 4];
-        flat.into_iter().for_each(|(kind, flat)| flats[kind] = flat);
-        contacts.push(Contact { at: Vertex::new(at.0, at.1), flats });
+    /// The free cell beside a cell, and the vertex at which their common side begins; the first two sides are
+    /// level, the others upright.
+    const SIDES: [[(i32, i32); 2]; 4] =
+        [[(0, -1), (0, 0)], [(0, 1), (0, 1)], [(-1, 0), (0, 0)], [(1, 0), (1, 0)]];
+    let corners = region.iter().flat_map(|&(x, y)| [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)]);
+    let touches = |&(x, y): &(i32, i32)| {
+        [(x, y), (x - 1, y), (x, y - 1), (x - 1, y - 1)].into_iter().any(|(x, y)| is_free(x, y))
     };
-    let mut flats = Flats::default();
-    for (kind, [beside, begin, along]) in SIDES.into_iter().enumerate() {
-        let begins = region.iter().filter(|&&(x, y)| is_free(x + beside.0, y + beside.1));
-        let mut begins: Vec<(i32, i32)> = begins.map(|&(x, y)| (x + begin.0, y + begin.1)).collect();
-        if along.1 == 1 {
-            begins.sort_unstable();
-        }
-        for (x, y) in begins {
-            let (line, place) = if along.0 == 1 { (y, x) } else { (x, y) };
-            let flat = Some((kind, flats.of(kind, line, place)));
-            add(&mut contacts, (x, y), flat);
-            add(&mut contacts, (x + along.0, y + along.1), flat);
-        }
+    let (mut contacts, mut count) = (without_flats(corners.filter(touches)), 0);
+    for (kind, [beside, begin]) in SIDES.into_iter().enumerate() {
+        let sides = region.iter().filter(|&&(x, y)| is_free(x + beside.0, y + beside.1));
+        let begins = sides.map(|&(x, y)| (x + begin.0, y + begin.1));
+        lay_flats(&mut contacts, begins, (kind, kind > 1, 1), &mut count);
     }
-    for &(x, y) in region {
-        for at in [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)] {
-            if [(0, 0), (-1, 0), (0, -1), (-1, -1)].iter().any(|cell| is_free(at.0 + cell.0, at.1 + cell.1)) {
-                add(&mut contacts, at, None);
-            }
-        }
-    }
-    // A vertex has at most one flat of each kind.
-    contacts.sort_by_key(|contact| (contact.at.y, contact.at.x));
-    contacts.dedup_by(|next, kept| {
-        let same = next.at == kept.at;
-        if same {
-            kept.flats.iter_mut().zip(next.flats).for_each(|(kept, next)| *kept = (*kept).min(next));
-        }
-        same
-    });
     contacts
-}
-
-/// Numbers flats, of which places are told one after another.
-#[derive(Default)]
-struct Flats {
-    count: u32,
-    last: Option<(usize, i32, i32)>,
-}
-
-impl Flats {
-    /// The flat of a place on a line: that of the place before it, if that was told last.
-    fn of(&mut self, kind: usize, line: i32, place: i32) -> u32 {
-        let continues = self.last == Some((kind, line, place - 1));
-        if self.last.is_some() && !continues {
-            self.count += 1;
-        }
-        self.last = Some((kind, line, place));
-        self.count
-    }
 }

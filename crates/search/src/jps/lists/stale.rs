@@ -146,10 +146,10 @@ impl<P: Placement> Stale<'_, P> {
         let step = (v, Footprint::new::<P>(self.graph.rule(), v));
         if v.y == 0 {
             // Each word after the one that the jump enters next.
-            marks.sort_unstable_by_key(|mark| (mark.y, -v.x * mark.word));
+            sort(&mut marks, [1, -v.x]);
             return self.sweep_rows(odd, &step, (&joined(marks), found));
         }
-        marks.sort_unstable_by_key(|mark| (-v.y * mark.y, mark.word));
+        sort(&mut marks, [-v.y, 1]);
         let marks = joined(marks);
         let mut rest = marks.iter().peekable();
         let (mut row, mut before): (Vec<Mark>, Vec<Mark>) = (Vec::new(), Vec::new());
@@ -158,7 +158,7 @@ impl<P: Placement> Stale<'_, P> {
                 let known = row.len();
                 row.extend(std::iter::from_fn(|| rest.next_if(|mark| mark.y == y)));
                 if known > 0 && row.len() > known {
-                    row.sort_unstable_by_key(|mark| mark.word);
+                    sort(&mut row, [1, 1]);
                     row = joined(row);
                 }
                 self.spend(row.len())?;
@@ -255,6 +255,11 @@ impl<P: Placement> Stale<'_, P> {
             }
         }
     }
+}
+
+/// Sorts marks by their rows, then by their words; −1 for descending.
+fn sort(marks: &mut [Mark], [down, right]: [i32; 2]) {
+    marks.sort_unstable_by_key(|mark| (down * mark.y, right * mark.word));
 }
 
 fn mark(marks: &mut Vec<Mark>, at: Vertex) {
