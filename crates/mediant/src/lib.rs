@@ -115,12 +115,13 @@
 //! after some edits. [`Planner::searched_by`] tells by which engine a query was answered.
 //!
 //! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit. So do distances to
-//! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`], whose
-//! `change` is that of their spaces.
+//! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`],
+//! whose `change` is that of their spaces.
 //!
 //! An edit of one cell takes 4 to 19 µs in the mean with all of that on 512 × 512 cells, 9 to 39 µs up to
-//! 4096 × 4096; with HPA* 46 to 136 µs, and with JPS+ about as long. A path is [checked](Change::check) against
-//! a change, kept while it is a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
+//! 4096 × 4096; with HPA* 46 to 136 µs, and with JPS+ about as long. A path is [checked](Change::check)
+//! against a change, kept while it is a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where
+//! it broke.
 //!
 //! # Errors
 //!

@@ -80,7 +80,7 @@ pub(crate) struct PyAnswer {
     searched_by: Option<&'static str>,
 }
 
-/// What is known of a search beside its answer.
+/// A search beside its answer: its guarantee, counters and engine.
 #[derive(Clone, Copy)]
 pub(crate) struct Searched {
     pub(crate) guarantee: Guarantee,

@@ -84,7 +84,8 @@ impl Index {
         self.inner.origin().name().to_owned()
     }
 
-    /// Whether nothing of it is that of an earlier map: false for subgoals that were repaired, until `finish`.
+    /// Whether nothing of it is that of an earlier map: false for subgoals that were repaired, until
+    /// `finish`.
     #[wasm_bindgen(getter, js_name = isFinished)]
     pub fn is_finished(&self) -> bool {
         self.inner.is_finished()
@@ -119,8 +120,8 @@ impl Index {
         Ok(Self { inner: self.inner.repair(&change).map_err(raised)?, world: space.world })
     }
 
-    /// This index with all that a repair left made anew. After it, subgoals go on with the labels or the graph
-    /// of the earlier map where these prove the answer; elsewhere another engine searches
+    /// This index with all that a repair left made anew. After it, subgoals go on with the labels or the
+    /// graph of the earlier map where these prove the answer; elsewhere another engine searches
     /// (`Planner.searchedBy`). To make them anew takes as long as `Space.prepare`: do it after some edits, in
     /// a worker, which gets the cells and gives back `toBytes`.
     ///

@@ -19,7 +19,7 @@ use crate::{change::Change, error::Error, map::Map, motion::Motion, space::Space
 /// let disc = disc.edit(post, |_, _| true)?;
 /// // The disc keeps off the post.
 /// assert!(disc.map().is_blocked((21, 4)) && disc.obstacles().is_free((21, 4)));
-/// // What was prepared of its map follows.
+/// // The index of its map follows.
 /// let change = disc.change(&space);
 /// let index = index.repair(&change)?;
 /// let space = change.after();

@@ -22,7 +22,7 @@ use crate::{
 pub(super) struct EarlierIndex<P: SubgoalPlacement> {
     /// `None` after so many edits that it proves too little.
     pub(super) map: Option<Arc<EarlierMap<P>>>,
-    /// What was prepared of the earlier map.
+    /// The preparation of the earlier map.
     pub(super) levels: Levels,
     /// On the present map.
     pub(super) other: Arc<dyn EngineIndex>,

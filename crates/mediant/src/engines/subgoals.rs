@@ -344,7 +344,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
 }
 
 impl<P: PlacementOfSpace> Kept<P> {
-    /// What was prepared on an earlier map; that of this one, if it is equal to it.
+    /// The preparation of an earlier map; that of this one, if the two are equal.
     fn of(earlier: EarlierIndex<P>, now: &Arc<FreeSpace<P>>) -> Self {
         match earlier.map.as_ref().filter(|map| map.is_present()) {
             None => Self::Earlier(earlier),

@@ -93,7 +93,7 @@ impl Index {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Space::prepare`](crate::Space::prepare).
+    /// As for [`Space::prepare`](crate::Space::prepare).
     pub fn finish(&self) -> Result<Self, Error> {
         self.finished(&NEVER)
     }

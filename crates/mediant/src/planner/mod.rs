@@ -287,8 +287,8 @@ impl Planner {
 
     /// The engine that answered the last query. It is that of its index
     /// ([`Index::searched_by`](crate::Index::searched_by)), unless this is not
-    /// [finished](crate::Index::is_finished): then either the labels of an earlier map have proven the answer,
-    /// and it is that of the setup, or another engine has searched.
+    /// [finished](crate::Index::is_finished): then either the labels of an earlier map have proven the
+    /// answer, and it is that of the setup, or another engine has searched.
     #[must_use]
     pub fn searched_by(&self) -> Engine {
         self.index.answered_by(&self.search)

@@ -152,8 +152,8 @@ fn is_repaired(setup: Setup) -> bool {
 }
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
-/// large, and says how it came about. That of Anya may leave out less, JPS+ has room for more, and subgoals are
-/// those of the map before, but paths cost the same.
+/// large, and says how it came about. That of Anya may leave out less, JPS+ has room for more, and subgoals
+/// are those of the map before, but paths cost the same.
 #[test]
 fn repaired_indexes_are_as_good_as_new_ones() {
     let mut rng = Rng::new(16);
@@ -202,24 +202,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                     }
                     bytes => assert_eq!(bytes.ok(), anew.to_bytes().ok(), "{setup}, edit {edit}"),
                 }
-                let (mut repaired, mut new) = (index.planner(), anew.planner());
-                for _ in 0..8 {
-                    let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
-                    let query = Ends::new(end(), end());
-                    if costs_alone {
-                        let [found, known] = [&mut repaired, &mut new]
-                            .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
-                        let is_same = match (&found, &known) {
-                            // Of equally short paths one may become shorter when it is smoothed.
-                            (Ok(_), Ok(_)) if setup.smoothing.is_some() => true,
-                            (Ok(found), Ok(known)) => (found - known).abs() < 1e-9 * (1.0 + known.abs()),
-                            (found, known) => found == known,
-                        };
-                        assert!(is_same, "{setup}, {query:?}: {found:?}, {known:?}");
-                        continue;
-                    }
-                    assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
-                }
+                check_alike(index, &anew, costs_alone, &mut rng);
             }
         }
         // A map of another size shares nothing with the last one.
@@ -229,6 +212,28 @@ fn repaired_indexes_are_as_good_as_new_ones() {
             let index = index.repair(&change).expect("its map");
             assert_eq!((index.origin(), index.identity()), (Origin::Prepared, other.identity()));
         }
+    }
+}
+
+/// Checks that two indexes of a map of 50 × 40 cells answer alike, by the same counts or by costs alone.
+fn check_alike(index: &Index, anew: &Index, costs_alone: bool, rng: &mut Rng) {
+    let (setup, mut repaired, mut new) = (index.setup(), index.planner(), anew.planner());
+    for _ in 0..8 {
+        let mut end = || (rng.below(50) as i32, rng.below(40) as i32);
+        let query = Ends::new(end(), end());
+        if !costs_alone {
+            assert_eq!(repaired.find_counted(query), new.find_counted(query), "{setup}, {query:?}");
+            continue;
+        }
+        let [found, known] = [&mut repaired, &mut new]
+            .map(|planner| planner.find(query).map(|answer| answer.cost().unwrap_or(-1.0)));
+        let is_same = match (&found, &known) {
+            // Of equally short paths one may become shorter when it is smoothed.
+            (Ok(_), Ok(_)) if setup.smoothing.is_some() => true,
+            (Ok(found), Ok(known)) => (found - known).abs() < 1e-9 * (1.0 + known.abs()),
+            (found, known) => found == known,
+        };
+        assert!(is_same, "{setup}, {query:?}: {found:?}, {known:?}");
     }
 }
 

@@ -83,7 +83,7 @@ impl State {
         Ok(step)
     }
 
-    /// What is known beside the answer: the counters if events are kept.
+    /// The search beside its answer, with counters if events are kept.
     fn searched(&self) -> Searched {
         Searched::by(&self.planner, self.trace.as_ref().map(Events::counters))
     }

@@ -20,7 +20,7 @@ pub(super) struct Closed {
 }
 
 impl Closed {
-    /// Those of the cells that are blocked on the present map.
+    /// The blocks near cells that are blocked on the present map.
     pub(super) fn new(now: &Grid, cells: &Cells) -> Self {
         let [width, height] = [now.width(), now.height()].map(|side| (side as usize >> SHIFT) + 1);
         let columns = width.div_ceil(64);

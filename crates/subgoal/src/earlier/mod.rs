@@ -7,10 +7,11 @@
 //!
 //! 1. *Does the path still hold?* Segments near cells that were closed since are looked at ([`Closed`]).
 //! 2. *Is every way through opened cells at least as long?* Opened cells that touch are an [`OpenedRegion`].
-//!    A path that passes it enters and leaves it at its *contacts*: vertices that were free before. Let d be the length of shortest paths on the earlier map. A way from s to t that first comes to an
-//!    opened cell at contact p, and leaves the last one at contact q, costs at least d(s, p) + h(p, q) +
-//!    d(q, t), as it is one of the earlier map up to p and from q on. Where the straight lines to the box
-//!    around a region are long enough, labels are not read at all.
+//!    A path that passes it enters and leaves it at its *contacts*: vertices that were free before. Let d be
+//!    the length of shortest paths on the earlier map. A way from s to t that first comes to an opened cell
+//!    at contact p, and leaves the last one at contact q, costs at least d(s, p) + h(p, q) + d(q, t), as it
+//!    is one of the earlier map up to p and from q on. Where the straight lines to the box around a region
+//!    are long enough, labels are not read at all.
 //!
 //! If both hold, the answer is right. If not, another planner searches the present map.
 //!
@@ -19,8 +20,8 @@
 //! most of the cells that open in a wall make no way shorter.
 //!
 //! **Between vertices.** At corners a path may enter a region between two contacts, ½ cell away from the
-//! nearer one; [`bound`] takes off as much. Where a contact is a closed gap, labels do not tell how paths come
-//! there; then only straight lines are asked.
+//! nearer one; [`bound`] takes off as much. Where a contact is a closed gap, labels do not tell how paths
+//! come there; then only straight lines are asked.
 
 mod bound;
 mod closed;

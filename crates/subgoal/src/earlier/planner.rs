@@ -18,8 +18,8 @@ use crate::{
 /// still prove the answer, and by another planner on the present map, `other`, where they do not.
 ///
 /// **Ties.** Of equally short paths it takes that of the planner which answers. So the same query may give
-/// another path than on labels of the present map, of the same cost. An observer is told of the other planner's
-/// searches alone.
+/// another path than on labels of the present map, of the same cost. An observer is told of the other
+/// planner's searches alone.
 pub struct EarlierSearch<P: SubgoalPlacement, F> {
     map: Arc<EarlierMap<P>>,
     search: Search<P>,

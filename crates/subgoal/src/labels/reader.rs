@@ -28,7 +28,7 @@ impl LabelReader {
         &self.hubs
     }
 
-    /// Those that were read last.
+    /// The hubs that were read last.
     pub(crate) fn last(&self) -> &[(u32, u64)] {
         &self.hubs
     }

@@ -1,9 +1,9 @@
 //! Distances to marked vertices, after a change of the map.
 //!
-//! A distance d > 0 is *held up* by a neighbor at distance d − 1. Where marks are gone, distances that nothing
-//! holds up any more are raised, level by level: whether a vertex at d + 1 is held up is known once all of
-//! those at d are raised that must be. Then the raised vertices take what their neighbors offer, new marks
-//! come in at 0, and distances are handed on from the least to the greatest, as in a new transform.
+//! A distance d > 0 is *held up* by a neighbor at distance d − 1. Where marks are gone, distances that
+//! nothing holds up any more are raised, level by level: whether a vertex at d + 1 is held up is known once
+//! all of those at d are raised that must be. Then the raised vertices take what their neighbors offer, new
+//! marks come in at 0, and distances are handed on from the least to the greatest, as in a new transform.
 
 use mediant_grid::{Change, Grid, Interrupt, Interrupted, Placement, VersionEdit, Vertex};
 

@@ -1,11 +1,12 @@
 //! Which jump lists an edit of the map makes wrong.
 //!
 //! A list says where jumps from its jump point lead. An axial jump is altered only if it comes to a vertex
-//! that axial jumps find otherwise than before. A diagonal jump is altered only if it comes to a vertex around
-//! which the pattern of cells changes, or from which one of the two axial jumps beside it is altered. So all
-//! stale lists are found by going back against the jumps: along rows and columns from the vertices that are
-//! found otherwise, and from there along diagonals, as long as the jumps can pass. (Where the change alters
-//! whether they can, the vertex before is looked at, too: the cells between belong to the patterns of both.)
+//! that axial jumps find otherwise than before. A diagonal jump is altered only if it comes to a vertex
+//! around which the pattern of cells changes, or from which one of the two axial jumps beside it is altered.
+//! So all stale lists are found by going back against the jumps: along rows and columns from the vertices
+//! that are found otherwise, and from there along diagonals, as long as the jumps can pass. (Where the change
+//! alters whether they can, the vertex before is looked at, too: the cells between belong to the patterns of
+//! both.)
 //!
 //! Diagonals are gone back 64 vertices at a time. Which of them have lists is then said by a word.
 //!
@@ -134,8 +135,8 @@ impl<P: Placement> Stale<'_, P> {
         }
     }
 
-    /// Whether a path that arrives at a vertex by one move goes on by another. (Where the pattern changes, all
-    /// lists are looked at.)
+    /// Whether a path that arrives at a vertex by one move goes on by another. (Where the pattern changes,
+    /// all lists are looked at.)
     fn goes_on(&self, at: Vertex, by: usize, index: usize) -> bool {
         self.table.successors(by, pattern_at(self.graph, at)) >> index & 1 == 1
     }
