@@ -30,6 +30,8 @@ pub(super) struct WayBound {
     /// The contacts of these, by the number of their region, with the least cost of a way between each and
     /// the start or the goal.
     ends: [Vec<(usize, usize, u64)>; 2],
+    /// Of each flat of a region the contact that was asked last, and the cost of the way there.
+    asked: Vec<(u32, Vertex, u64)>,
     waypoints: Vec<Vertex>,
 }
 
@@ -93,7 +95,7 @@ impl WayBound {
         (side, [from, to], near): (usize, [Vertex; 2], u64),
         cost: u64,
     ) {
-        let Self { reader, by_hub, left, ends, waypoints } = self;
+        let Self { reader, by_hub, left, ends, asked, waypoints } = self;
         let reader = reader.get_or_insert_with(|| LabelReader::new(labels));
         by_hub.resize(labels.subgoals(), NO_WAY);
         let hubs = reader.hubs(labels, then, from);
@@ -102,10 +104,14 @@ impl WayBound {
         ends[side].clear();
         for &region in &*left {
             let OpenedRegion { contacts, hubs, .. } = &*opened[region];
+            asked.clear();
             for (number, (contact, hubs)) in contacts.iter().zip(hubs.iter().flatten()).enumerate() {
                 let (at, straight) = (contact.at, length(from.to(contact.at)));
                 let rest = length(at.to(to)).saturating_sub(near);
-                if straight + rest >= cost + near {
+                // Along a flat a way grows and shrinks by the distance at most.
+                let on_flats = asked.iter().filter(|(flat, ..)| contact.flats().any(|own| own == *flat));
+                let along = on_flats.map(|&(_, other, way)| way.saturating_sub(length(other.to(at))));
+                if along.fold(straight, u64::max) + rest >= cost + near {
                     continue;
                 }
                 let over = hubs.iter().map(|&(hub, cost)| by_hub[hub as usize] + cost).min();
@@ -116,6 +122,8 @@ impl WayBound {
                 {
                     way = straight;
                 }
+                asked.retain(|(flat, ..)| contact.flats().all(|own| own != *flat));
+                asked.extend(contact.flats().map(|flat| (flat, at, way)));
                 let way = way.saturating_sub(near);
                 if way + rest < cost {
                     ends[side].push((region, number, way));

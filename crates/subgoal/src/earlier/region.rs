@@ -38,6 +38,11 @@ const NO_FLAT: u32 = u32::MAX;
 const MOST_CONTACTS: usize = 256;
 
 impl Contact {
+    /// The flats that it lies on.
+    pub(super) fn flats(&self) -> impl Iterator<Item = u32> {
+        self.flats.into_iter().filter(|&flat| flat != NO_FLAT)
+    }
+
     /// Whether a way that enters at one contact and leaves at the other is no shorter than one of the earlier
     /// map: both lie on one flat.
     pub(super) fn is_joined<P: SubgoalPlacement>(&self, other: &Self) -> bool {
@@ -45,7 +50,7 @@ impl Contact {
         match P::KIND {
             PlacementKind::Center => pairs.any(|(one, two)| one == two && *one != NO_FLAT),
             // At corners the way may come near the contact, on any of its flats.
-            PlacementKind::Corner => match self.flats.iter().filter(|&&flat| flat != NO_FLAT).count() {
+            PlacementKind::Corner => match self.flats().count() {
                 0 => self.at == other.at,
                 1 => pairs.all(|(one, two)| one == two),
                 _ => false,
