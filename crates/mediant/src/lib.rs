@@ -111,8 +111,8 @@
 //! | `subgoal-theta` | nothing: it is prepared anew | bytes |
 //!
 //! Labels of the map before prove 94 % of the answers and more after an edit of 10 × 10 cells (the table in
-//! `docs/performance.md`). [`Index::finish`] makes them anew, where and when you want it: on another thread,
-//! after some edits. [`Planner::searched_by`] tells by which engine a query was answered.
+//! `docs/measurements/subgoal.md`). [`Index::finish`] makes them anew, where and when you want it: on another
+//! thread, after some edits. [`Planner::searched_by`] tells by which engine a query was answered.
 //!
 //! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit. So do distances to
 //! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`],
