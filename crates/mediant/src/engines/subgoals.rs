@@ -256,7 +256,11 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(_) => {
                 let Some(earlier) = self.earlier(change.before(), interrupt)? else { return Ok(None) };
                 let earlier = earlier.repaired(change, anew, interrupt)?;
-                Kept::of(earlier, &P::layers(change.after(), Engine::Subgoal)?.free)
+                let other = Arc::clone(&earlier.other);
+                let kept = Kept::of(earlier, &P::layers(change.after(), Engine::Subgoal)?.free);
+                // Where the map is as it was prepared, the next edit, say of the same door, is as quick.
+                let other = if matches!(kept, Kept::Earlier(_)) { OnceLock::new() } else { other.into() };
+                return shared(Ok(Self { other, ..self.with(kept) })).map(Some);
             }
         };
         shared(Ok(self.with(kept))).map(Some)
