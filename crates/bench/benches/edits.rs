@@ -10,23 +10,8 @@
 use std::time::Instant;
 
 use mediant::{Engine, K, Map, Motion, Space};
-use mediant_grid::Grid;
+use mediant_bench::compare::changes::rooms;
 use mediant_oracle::{Rng, noise};
-
-/// Rooms of 15 × 15 cells with walls one cell thick, most of which have a door of one cell.
-fn rooms(rng: &mut Rng, side: u32) -> Grid {
-    let (pitch, across) = (16, side / 16 + 1);
-    let doors: Vec<[u32; 4]> = (0..across * across)
-        .map(|_| [rng.below(10), 1 + rng.below(15), rng.below(10), 1 + rng.below(15)])
-        .collect();
-    let is_wall = |x: u32, y: u32| {
-        let [has_left, left, has_top, top] = doors[(y / pitch * across + x / pitch) as usize];
-        let [(is_left, x), (is_top, y)] = [x, y].map(|at| (at.is_multiple_of(pitch), at % pitch));
-        let is_door = is_left && has_left < 8 && y == left || is_top && has_top < 8 && x == top;
-        (is_left || is_top) && !is_door
-    };
-    Grid::from_fn(side, side, is_wall).unwrap()
-}
 
 fn free_cell(rng: &mut Rng, space: &Space) -> (i32, i32) {
     let side = space.map().width();
@@ -81,7 +66,7 @@ fn main() {
     for (side, edits) in [(512, 10_000), (2_048, 2_000), (4_096, 500)] {
         for name in ["noise", "rooms"] {
             let rng = &mut Rng::new(7);
-            let map = if name == "noise" { noise(rng, side, side, 20) } else { rooms(rng, side) };
+            let map = if name == "noise" { noise(rng, side, side, 20) } else { rooms(rng, side).unwrap() };
             let map = Map::from(map);
             for engine in [E::AStar, E::Canonical, E::JpsBlock, E::JpsPlus, E::Anya, E::Hpa, E::Chpa] {
                 measure(name, &map, (engine, 3), edits);

@@ -85,6 +85,11 @@ impl BoolMap {
         Self { width, height, blocked: cells.map(|(x, y)| grid.is_blocked(x, y)).collect() }
     }
 
+    /// Blocks or frees a cell of the map.
+    pub(crate) fn set(&mut self, at: Vertex, blocked: bool) {
+        self.blocked[(at.y * self.width + at.x) as usize] = blocked;
+    }
+
     fn is_free(&self, x: i32, y: i32) -> bool {
         let inside = (0..self.width).contains(&x) && (0..self.height).contains(&y);
         inside && !self.blocked[(y * self.width + x) as usize]
@@ -130,6 +135,12 @@ pub(crate) fn pathing_grid(grid: &Grid) -> PathingGrid {
     }
     pathing.generate_components();
     pathing
+}
+
+/// Blocks or frees a cell, with the update of components that `grid_pathfinding` asks for.
+pub(crate) fn set_cell(pathing: &mut PathingGrid, at: Vertex, blocked: bool) {
+    pathing.set(at.x, at.y, blocked);
+    pathing.update();
 }
 
 /// A path of `grid_pathfinding`, cell by cell.

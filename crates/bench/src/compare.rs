@@ -1,6 +1,7 @@
 //! `cargo xtask compare`: our engines, two crates that everyone can run, and, through those, the programs of
 //! `benchdata/reference_timings.json`.
 
+pub mod changes;
 mod report;
 
 use std::{
@@ -12,6 +13,9 @@ use std::{
 use clap::Args;
 use indicatif::ProgressBar;
 use mediant::Setup;
+use mediant_grid::GridError;
+use mediant_report::RecordError;
+use mediant_search::QueryError;
 use mediant_sets::{Archive, cache, root};
 
 use self::report::Results;
@@ -45,6 +49,12 @@ pub struct Options {
     /// A folder that holds the archives (SET-map.zip, SET-scen.zip) of sets that were not downloaded
     #[arg(long, value_name = "DIR", env = "MEDIANT_MIRROR")]
     mirror: Option<PathBuf>,
+    /// Instead, time engines on maps that change, and write docs/results/changes.md with its record
+    #[arg(long, conflicts_with_all = ["engines", "maps", "typed", "json"])]
+    changes: bool,
+    /// With --changes: measure nothing, but draw the page again from its record
+    #[arg(long, requires = "changes")]
+    render: bool,
     /// Also write all figures to this file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -63,6 +73,24 @@ pub enum CompareError {
     /// A wrong answer.
     #[error(transparent)]
     Measure(#[from] MeasureError),
+    /// A call of the library that failed.
+    #[error(transparent)]
+    Library(Box<mediant::Error>),
+    /// A record that cannot be read.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Paths of another length than those of the first engine.
+    #[error("{engine} on map `{map}`: expected paths of length {expected} in all, found {found}")]
+    Lengths {
+        /// The engine and the motion.
+        engine: String,
+        /// The map.
+        map: String,
+        /// The length of the first engine's paths.
+        expected: f64,
+        /// The length of its own.
+        found: f64,
+    },
     /// A map that has no reference timings.
     #[error("no figures of other programs for map `{name}`: there are some for {known}")]
     UnknownMap {
@@ -74,6 +102,14 @@ pub enum CompareError {
     /// None of the maps is there.
     #[error("none of the maps is there: {0}")]
     NoMap(String),
+    /// The record cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's error.
+        source: io::Error,
+    },
     /// The figures cannot be written.
     #[error("{}: {source}", path.display())]
     Write {
@@ -100,6 +136,13 @@ pub fn run(options: &Options) -> Result<(), CompareError> {
 /// # Errors
 /// [`CompareError`]; above all, an answer that is wrong.
 pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<(), CompareError> {
+    // An address as mirror is for `download`; here only a folder can be read.
+    let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
+    let folders = [Some(cache(root)), mirror];
+    let archive = Archive::new(folders.into_iter().flatten());
+    if options.changes {
+        return if options.render { changes::render(root) } else { changes::run(root, &archive) };
+    }
     let references = ReferenceTimings::bundled()?;
     let names: Vec<&str> = references.maps.iter().map(|row| row.map.as_str()).collect();
     if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
@@ -112,10 +155,6 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
         // An error of writing should come before minutes of measuring, not after.
         write(path, String::new())?;
     }
-    // An address as mirror is for `download`; here only a folder can be read.
-    let mirror = options.mirror.clone().filter(|mirror| mirror.is_dir());
-    let folders = [Some(cache(root)), mirror];
-    let archive = Archive::new(folders.into_iter().flatten());
     let Measured { records, missing } = measure_all(&references, &archive, options)?;
     let advice = missing_advice(&missing);
     if records.is_empty() {
@@ -141,6 +180,24 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     match &options.json {
         None => Ok(()),
         Some(path) => write(path, report::json(root, &results)),
+    }
+}
+
+impl From<mediant::Error> for CompareError {
+    fn from(error: mediant::Error) -> Self {
+        Self::Library(Box::new(error))
+    }
+}
+
+impl From<QueryError> for CompareError {
+    fn from(error: QueryError) -> Self {
+        mediant::Error::from(error).into()
+    }
+}
+
+impl From<GridError> for CompareError {
+    fn from(error: GridError) -> Self {
+        mediant::Error::from(error).into()
     }
 }
 

@@ -23,6 +23,11 @@ use crate::{
 pub enum Demand {
     /// So many paths or lengths, now.
     Paths(u64),
+    /// So many paths or lengths between two edits of the map, on and on. 0 and 1: an edit before each path.
+    Changing {
+        /// The paths or lengths between two edits.
+        paths: u64,
+    },
     /// The distances from a vertex to all others.
     Distances,
     /// An index, to be saved.
@@ -38,16 +43,23 @@ impl Space {
     /// The engine that we would take for what is asked, and why:
     /// - for one path [`Choice::for_next_path`], for up to 1,000 [`Choice::for_some_paths`], for more
     ///   [`Space::engine`];
+    /// - for a map that changes an engine that follows the edits, by the motion, the size of the map, whether
+    ///   it is noise, and the paths between two edits: up to 30 or 300 of them one whose repair is quick,
+    ///   beyond that subgoals. These are reckoned as [finished](crate::Index::finish) after every 40 edits;
+    ///   `docs/results/changes.md` has the figures;
     /// - for all distances Dijkstra's algorithm;
     /// - for an index subgoals, or JPS+ where they are not for this motion.
     ///
     /// ```
     /// use mediant::{Demand, Engine, K, Map, Motion};
-    /// let space = Map::from_rows(["....", ".##."])?.space(Motion::centers(K::N8))?;
+    /// let map = Map::from_fn(40, 40, |x, y| x % 9 == 4 && y % 7 != 3)?;
+    /// let space = map.space(Motion::centers(K::N8))?;
     /// let engine = |demand| space.engine_for(demand).map(|choice| choice.engine);
     /// assert_eq!(engine(Demand::Paths(1)), Ok(Engine::Canonical));
     /// assert_eq!(engine(Demand::Paths(50)), Ok(Engine::JpsBlock));
     /// assert_eq!(engine(Demand::Paths(5_000)), Ok(Engine::Subgoal));
+    /// assert_eq!(engine(Demand::Changing { paths: 1 }), Ok(Engine::JpsBlock));
+    /// assert_eq!(engine(Demand::Changing { paths: 50 }), Ok(Engine::JpsPlus));
     /// assert_eq!(engine(Demand::Index), Ok(Engine::Subgoal));
     /// # Ok::<(), mediant::Error>(())
     /// ```
@@ -68,6 +80,7 @@ impl Demand {
             Self::Paths(0 | 1) => Ok(Choice::for_next_path(motion, map)),
             Self::Paths(2..=MOST_PATHS_WITHOUT_INDEX) => Ok(Choice::for_some_paths(motion)),
             Self::Paths(_) => Ok(Choice::for_many_paths(motion, map)),
+            Self::Changing { paths } => Ok(Choice::for_changing_map(motion, map, paths)),
             Self::Distances => {
                 takes(Engine::Dijkstra)?;
                 Ok(Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" })
@@ -106,7 +119,7 @@ impl Demand {
             Err(refused) => refused,
         };
         let does = |engine: Engine| match self {
-            Self::Paths(_) => true,
+            Self::Paths(_) | Self::Changing { .. } => true,
             Self::Distances => engine.capabilities().distances,
             Self::Index => engine.capabilities().index.is_some(),
         };

@@ -114,6 +114,8 @@
 //! `docs/measurements/subgoal.md`). [`Index::finish`] makes them anew, where and when you want it: on another
 //! thread, after some edits. [`Planner::searched_by`] tells by which engine a query was answered.
 //!
+//! [`Space::engine_for`] names the engine for so many paths between two edits ([`Demand::Changing`]).
+//!
 //! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit. So do distances to
 //! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`],
 //! whose `change` is that of their spaces.
@@ -179,6 +181,7 @@ mod agent;
 pub mod call;
 mod capabilities;
 mod change;
+mod changing;
 mod choice;
 mod code;
 mod configured;

@@ -61,7 +61,7 @@ const LAYERS: [Layer; 16] = [
     layer(SETS, &[GRID, FORMATS], "a set is downloaded and verified without an engine"),
     layer(
         BENCH,
-        &[MOVES, GRID, SEARCH, SUBGOAL, LIBRARY, FORMATS, REPORT, SETS],
+        &[MOVES, GRID, SEARCH, SUBGOAL, LIBRARY, FORMATS, ORACLE, REPORT, SETS],
         "measurements take engines as users have them",
     ),
     layer(

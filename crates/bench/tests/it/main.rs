@@ -1,5 +1,6 @@
 //! Problems from the files of benchmark sets, the side by side on generated maps, and `verify`.
 
+mod changes;
 mod measure;
 mod problem;
 mod verify;

@@ -225,7 +225,9 @@ fn the_engine_follows_what_is_asked() {
     for rules in Rules::ALL {
         for k in [K::N4, K::N8, K::N16, k(7).into()] {
             let space = space(Motion::new(k, rules));
-            for demand in [Demand::Paths(1), Demand::Paths(9), Demand::Paths(u64::MAX), Demand::Distances] {
+            let changing = [0, 10, 100, u64::MAX].map(|paths| Demand::Changing { paths });
+            let others = [Demand::Paths(1), Demand::Paths(9), Demand::Paths(u64::MAX), Demand::Distances];
+            for demand in others.into_iter().chain(changing) {
                 let engine = space.engine_for(demand).expect("there is one").engine;
                 assert!(Setup::new(engine, Motion::new(k, rules)).check().is_ok(), "{engine}, {demand:?}");
                 assert!(demand != Demand::Distances || engine.capabilities().distances);

@@ -1,0 +1,65 @@
+//! The study of maps that change: the page is that of the record, and the library's choice that of the study.
+
+use std::fs;
+
+use mediant_bench::compare::changes::{MOST, PATHS, cases, drawn};
+use mediant_report::Record;
+use mediant_sets::root;
+
+/// Where a look at the map does not tell the best engine: map, motion, and paths between two edits.
+const EXCEPTIONS: &[(&str, &str, u64)] = &[
+    ("rooms-512", "3:open", 10),
+    ("brc202d", "3:open", 1),
+    ("brc202d", "3:open", 10),
+    ("icecrown", "3:never", 10),
+    ("icecrown", "any:open", 100),
+    ("icecrown", "2:never", 10),
+    ("icecrown", "2:never", 1_000),
+    ("icecrown", "2:never", 10_000),
+    ("icecrown", "3:open", 1),
+    ("icecrown", "3:open", 1_000),
+    ("icecrown", "3:open", 10_000),
+    ("Paris_1_512", "3:never", 10),
+    ("Paris_1_512", "any:open", 100),
+    ("Paris_1_512", "2:never", 1_000),
+    ("Paris_1_512", "3:open", 1_000),
+    ("Paris_1_512", "4:open", 100),
+];
+/// The most that the choice takes there, over the best engine.
+const MOST_OF_EXCEPTIONS: f64 = 3.0;
+
+fn record() -> Record {
+    let text = fs::read_to_string(root().join("docs/results/data/changes.json")).expect("a record");
+    Record::parse(&text).expect("a record")
+}
+
+#[test]
+fn the_page_is_drawn_from_the_record() {
+    for (place, text) in drawn(&record()) {
+        let committed = fs::read_to_string(root().join("docs/results").join(&place)).expect("a file");
+        assert!(committed == text, "{place}: run `cargo xtask compare --changes --render`");
+    }
+}
+
+/// On each map, for each motion and each number of paths between two edits.
+#[test]
+fn the_recommended_engine_is_nearly_the_best() {
+    let record = record();
+    let cases = cases(&record);
+    assert!(cases.len() > 50, "{}", cases.len());
+    let mut wrong = Vec::new();
+    for (case, paths) in cases.iter().flat_map(|case| PATHS.map(|paths| (case, paths))) {
+        let (best, least) = case.best(paths).expect("engines");
+        let (taken, time) = case.taken(paths).expect("an engine of the study");
+        let is_exception = EXCEPTIONS.contains(&(case.map, case.motion, paths));
+        let ratio = time / least;
+        // One that is not needed is wrong as well, so that the list only shrinks.
+        if is_exception != (ratio > MOST) || ratio > MOST_OF_EXCEPTIONS {
+            wrong.push(format!(
+                "({:?}, {:?}, {paths}), // {taken} {ratio:.2} × {best}",
+                case.map, case.motion
+            ));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
