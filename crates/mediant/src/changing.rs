@@ -29,10 +29,6 @@ const MOST_PATHS_WITHOUT_LABELS: u64 = 300;
 /// The same for Anya: 21 to 330 paths. And for JPS+ on large maps: 72.
 const MOST_PATHS_OF_ANYA: u64 = 30;
 
-/// Up to so many paths between two edits, between centers from k = 4 on, A\*: the other engines find their
-/// distances to obstacles anew after each edit, and were as fast at 1.6 to 6.3 paths.
-const MOST_PATHS_OF_ASTAR: u64 = 3;
-
 /// The places that are looked at for corners.
 const SAMPLE: u32 = 4_096;
 
@@ -61,9 +57,7 @@ impl Choice {
                     _ => Self::for_some_paths(motion),
                 }
             }
-            Some(_) if !at_corners && (is_noise || paths <= MOST_PATHS_OF_ASTAR) => {
-                choice(Engine::AStar, "it prepares nothing that an edit could change")
-            }
+            Some(_) if !at_corners && is_noise => choice(Engine::AStar, "jumps are short in noise"),
             Some(_) if !at_corners => Self::for_many_paths(motion, map),
             _ if paths <= MOST_PATHS_OF_ANYA || is_noise && !is_large => {
                 choice(Engine::Anya, "what it prepares follows an edit at once")

@@ -10,7 +10,7 @@ use std::{
 };
 
 use mediant::{
-    Engine, Error, ErrorCode, FiniteK, Index, K, Limits, Map, Motion, Planner, Query, Rules, Space,
+    Change, Engine, Error, ErrorCode, FiniteK, Index, K, Limits, Map, Motion, Planner, Query, Rules, Space,
     options::{ConfiguredEngine, Levels},
 };
 
@@ -173,9 +173,11 @@ fn follows_in_its_memory(space: &Space, index: &Index) {
     // A cell that is blocked, so that no subgoal is added.
     let change = space.edit_cells([((1, 2), false)]).expect("a cell of the map");
     let edited = index.repair(&change).expect("its own change");
+    let back = Change::between(edited.space(), space).expect("the same motion");
+    let index = edited.repair(&back).expect("its own change");
     let (engine, mut planner) = (index.searched_by(), index.planner());
     let turn = |planner: &mut Planner| {
-        for next in [&edited, index] {
+        for next in [&edited, &index] {
             planner.follow(next).expect("the same setup");
             let answer = planner.find(Query::new((0, 0), (250, 250))).expect("both ends are free");
             assert!(answer.path().is_some());

@@ -3,7 +3,7 @@
 
 use std::{any::Any, sync::Arc};
 
-use mediant_grid::{Interrupt, Vertex};
+use mediant_grid::{Interrupt, Interrupted, Vertex};
 use mediant_search::{Ends, Guarantee, Observer, Path, Planner as Search, QueryError, SearchStatus};
 use mediant_subgoal::{EarlierMap, EarlierSearch, SubgoalPlacement};
 
@@ -13,6 +13,7 @@ use crate::{
     engine::Engine,
     erased::Dynamic,
     error::Error,
+    labeled::{HasLabels, Labeled},
     option::Levels,
     space::{PlacementOfSpace, Space},
 };
@@ -22,6 +23,8 @@ use crate::{
 pub(super) struct EarlierIndex<P: SubgoalPlacement> {
     /// `None` after so many edits that it proves too little.
     pub(super) map: Option<Arc<EarlierMap<P>>>,
+    /// Its labels, if they are those of the present map: if all cells are again as they were.
+    labels: Option<Labeled<P>>,
     /// The preparation of the earlier map.
     pub(super) levels: Levels,
     /// On the present map.
@@ -29,6 +32,15 @@ pub(super) struct EarlierIndex<P: SubgoalPlacement> {
 }
 
 impl<P: PlacementOfSpace> EarlierIndex<P> {
+    pub(super) fn new(map: Option<EarlierMap<P>>, levels: Levels, other: Arc<dyn EngineIndex>) -> Self {
+        let present = map.as_ref().filter(|map| map.is_present());
+        let labels = present.and_then(|map| {
+            let labels = Arc::clone(map.labels()?);
+            Some(Labeled { space: Arc::clone(map.space()), labels })
+        });
+        Self { labels, map: map.map(Arc::new), levels, other }
+    }
+
     /// The index for the map after another change; `anew` prepares the other engine where it is not repaired.
     pub(super) fn repaired(
         &self,
@@ -39,7 +51,7 @@ impl<P: PlacementOfSpace> EarlierIndex<P> {
         let now = &P::layers(change.after(), Engine::Subgoal)?.free;
         let map = self.map.as_ref().and_then(|map| map.after(now, change.of_grid()));
         let other = other_after(&self.other, change, anew, interrupt)?;
-        Ok(Self { map: map.map(Arc::new), levels: self.levels, other })
+        Ok(Self::new(map, self.levels, other))
     }
 
     pub(super) fn search(&self) -> Result<Boxed, Error> {
@@ -65,6 +77,26 @@ impl<P: PlacementOfSpace> EarlierIndex<P> {
     pub(super) fn is_by_other(&self, search: &Boxed) -> bool {
         let search: &dyn Any = &**search;
         search.downcast_ref().is_none_or(|search: &EarlierSearch<P, Other>| !search.is_from_earlier())
+    }
+
+    /// Whether the earlier map is the present one: then nothing is left to make anew.
+    pub(super) fn is_present(&self) -> bool {
+        self.map.as_ref().is_some_and(|map| map.is_present())
+    }
+
+    /// Its labels, if they are those of the present map.
+    pub(super) fn labels(&self) -> Option<&dyn HasLabels> {
+        self.labels.as_ref().map(|labels| labels as &dyn HasLabels)
+    }
+
+    /// The bytes of its labels or its graph, if they are those of the present map.
+    pub(super) fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
+        let Some(map) = self.map.as_ref().filter(|map| map.is_present()) else { return Ok(None) };
+        match (map.labels(), map.graph()) {
+            (Some(labels), _) => labels.to_bytes_interruptible(interrupt).map(Some),
+            (None, Some(graph)) => graph.to_bytes_interruptible(interrupt).map(Some),
+            (None, None) => Ok(None),
+        }
     }
 
     pub(super) fn scratch_bytes(&self) -> usize {

@@ -156,7 +156,7 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
                 Arc::clone(self.other.get_or_init(|| other))
             }
         };
-        Ok(Some(EarlierIndex { map: map.map(Arc::new), levels, other }))
+        Ok(Some(EarlierIndex::new(map, levels, other)))
     }
 
     /// The same with options that name what is kept. Of labels the memory is named if they take more than by
@@ -237,8 +237,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(Labeled { labels, .. }) => Some(labels.to_bytes_interruptible(interrupt)?),
             Kept::Graph(_, graph) => Some(graph.to_bytes_interruptible(interrupt)?),
             Kept::Nothing(identity, _) => Some(PreparedSubgoals::<P>::Nothing(*identity).to_bytes()),
-            // It is finished first.
-            Kept::Earlier(_) => None,
+            Kept::Earlier(earlier) => earlier.to_bytes(interrupt)?,
         })
     }
 
@@ -256,11 +255,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
             Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(_) => {
                 let Some(earlier) = self.earlier(change.before(), interrupt)? else { return Ok(None) };
                 let earlier = earlier.repaired(change, anew, interrupt)?;
-                let other = Arc::clone(&earlier.other);
-                let kept = Kept::of(earlier, &P::layers(change.after(), Engine::Subgoal)?.free);
-                // Where the map is as it was prepared, the next edit, say of the same door, is as quick.
-                let other = if matches!(kept, Kept::Earlier(_)) { OnceLock::new() } else { other.into() };
-                return shared(Ok(Self { other, ..self.with(kept) })).map(Some);
+                Kept::Earlier(earlier)
             }
         };
         shared(Ok(self.with(kept))).map(Some)
@@ -276,7 +271,7 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
     }
 
     fn is_finished(&self) -> bool {
-        !matches!(self.kept, Kept::Earlier(_))
+        !matches!(&self.kept, Kept::Earlier(earlier) if !earlier.is_present())
     }
 
     fn answered_by(&self, search: &Boxed) -> Option<Engine> {
@@ -328,7 +323,8 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
     fn labels(&self) -> Option<&dyn HasLabels> {
         match &self.kept {
             Kept::Labels(labeled) => Some(labeled),
-            Kept::Graph(..) | Kept::Nothing(..) | Kept::Earlier(_) => None,
+            Kept::Earlier(earlier) => earlier.labels(),
+            Kept::Graph(..) | Kept::Nothing(..) => None,
         }
     }
 
@@ -343,23 +339,6 @@ impl<P: PlacementOfSpace> EngineIndex for SubgoalIndex<P> {
         match &self.kept {
             Kept::Labels(_) | Kept::Graph(..) | Kept::Earlier(_) => false,
             Kept::Nothing(_, substitute) => substitute.is_for_one_path(),
-        }
-    }
-}
-
-impl<P: PlacementOfSpace> Kept<P> {
-    /// The preparation of an earlier map; that of this one, if the two are equal.
-    fn of(earlier: EarlierIndex<P>, now: &Arc<FreeSpace<P>>) -> Self {
-        match earlier.map.as_ref().filter(|map| map.is_present()) {
-            None => Self::Earlier(earlier),
-            Some(map) => {
-                let space = Arc::clone(now);
-                match (map.labels(), map.graph()) {
-                    (Some(labels), _) => Self::Labels(Labeled { space, labels: Arc::clone(labels) }),
-                    (None, Some(graph)) => Self::Graph(space, Arc::clone(graph)),
-                    (None, None) => Self::Earlier(earlier),
-                }
-            }
         }
     }
 }

@@ -123,6 +123,12 @@ impl<P: SubgoalPlacement> EarlierMap<P> {
         Some(Self { then: Arc::clone(then), prepared: prepared.clone(), now, cells, closed, opened })
     }
 
+    /// The present map.
+    #[must_use]
+    pub const fn space(&self) -> &Arc<FreeSpace<P>> {
+        &self.now
+    }
+
     /// Whether the present map equals the earlier one.
     #[must_use]
     pub const fn is_present(&self) -> bool {
