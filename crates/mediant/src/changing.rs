@@ -8,7 +8,7 @@ use mediant_grid::PlacementKind;
 use crate::{choice::Choice, engine::Engine, map::Map, motion::Motion, setup::Setup};
 
 /// On a map of more cells a search takes so long that preparing pays sooner: JPS+ from the first path on
-/// (rooms of 2048 × 2048 cells: block-based JPS took 1.6 times as long), and labels from 72.
+/// (rooms of 2048 × 2048 cells: block-based JPS took 1.5 times as long), and labels from 41.
 const MOST_CELLS_OF_SMALL: u64 = 1 << 20;
 
 /// From so many convex corners a cell on a map is noise: 0.41 where 20 % of the cells are blocked. In rooms
@@ -16,17 +16,17 @@ const MOST_CELLS_OF_SMALL: u64 = 1 << 20;
 const CORNERS_OF_NOISE: f64 = 0.1;
 
 /// Up to so many paths between two edits, between centers, block-based JPS. JPS+ takes longer to repair and
-/// less to search: it was as fast at 1 to 13 paths on most maps, where obstacles stand alone at 33 to 200.
+/// less to search: it was as fast at 1 to 12 paths on most maps, where obstacles stand alone at 30 to 270.
 const MOST_PATHS_OF_BLOCKS: u64 = 3;
 
-/// The same between corners: 1 to 27 paths, and 310.
+/// The same between corners: 1 to 48 paths, and 176.
 const MOST_PATHS_OF_BLOCKS_AT_CORNERS: u64 = 30;
 
 /// Up to so many paths between two edits JPS+ (in noise canonical A\*): labels made anew after every 40 edits
-/// were as fast at 65 to 650 paths.
+/// were as fast at 41 to 530 paths on most maps, where obstacles stand alone later.
 const MOST_PATHS_WITHOUT_LABELS: u64 = 300;
 
-/// The same for Anya: 21 to 330 paths. And for JPS+ on large maps: 72.
+/// The same for Anya: 15 to 235 paths. And for JPS+ on large maps: 41.
 const MOST_PATHS_OF_ANYA: u64 = 30;
 
 /// The places that are looked at for corners.
@@ -42,6 +42,9 @@ impl Choice {
         let canonical = choice(Engine::Canonical, "it follows an edit at once, and jumps are short in noise");
         match motion.k.finite().map(|k| k.get()) {
             Some(2 | 3) if is_noise && (at_corners || paths <= MOST_PATHS_WITHOUT_LABELS) => canonical,
+            Some(4 | 5) if is_noise && at_corners && !is_large => {
+                choice(Engine::Jps, "it follows an edit at once, and Anya is slow in noise")
+            }
             Some(2 | 3) => {
                 let (blocks, lists) = match (is_large, at_corners) {
                     (true, _) => (0, MOST_PATHS_OF_ANYA),
@@ -57,7 +60,7 @@ impl Choice {
                     _ => Self::for_some_paths(motion),
                 }
             }
-            Some(_) if !at_corners && is_noise => choice(Engine::AStar, "jumps are short in noise"),
+            Some(_) if !at_corners && is_noise => canonical,
             Some(_) if !at_corners => Self::for_many_paths(motion, map),
             _ if paths <= MOST_PATHS_OF_ANYA || is_noise && !is_large => {
                 choice(Engine::Anya, "what it prepares follows an edit at once")

@@ -8,7 +8,10 @@ use mediant_sets::root;
 
 /// Where a look at the map does not tell the best engine: map, motion, and paths between two edits.
 const EXCEPTIONS: &[(&str, &str, u64)] = &[
+    ("rooms-512", "2:never", 100),
+    ("rooms-512", "3:never", 100),
     ("rooms-512", "3:open", 10),
+    ("Cauldron", "2:never", 100),
     ("brc202d", "3:open", 1),
     ("brc202d", "3:open", 10),
     ("icecrown", "3:never", 10),
@@ -18,11 +21,8 @@ const EXCEPTIONS: &[(&str, &str, u64)] = &[
     ("icecrown", "2:never", 10_000),
     ("icecrown", "3:open", 1),
     ("icecrown", "3:open", 1_000),
-    ("icecrown", "3:open", 10_000),
     ("Paris_1_512", "3:never", 10),
     ("Paris_1_512", "any:open", 100),
-    ("Paris_1_512", "2:never", 1_000),
-    ("Paris_1_512", "3:open", 1_000),
     ("Paris_1_512", "4:open", 100),
 ];
 /// The most that the choice takes there, over the best engine.
