@@ -59,7 +59,8 @@ pub(crate) struct QueryRecord {
     pub(crate) item: Item,
     /// The query, with all ends, wishes and limits.
     pub(crate) query: Query,
-    /// The engine that searched in place of the run's, because cells count otherwise for the query.
+    /// The engine that answered, where it need not be the run's: cells count otherwise for the query, or the
+    /// index is not finished after an edit.
     pub(crate) searched_by: Option<Engine>,
     /// The answer, or why the query cannot be answered.
     pub(crate) answer: Result<QueryAnswer, Unanswered>,

@@ -337,7 +337,8 @@ struct QueryLine<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     goals: Option<Vec<[i32; 2]>>,
     status: Status,
-    /// The engine that searched in place of the run's; only where cells count otherwise for the query.
+    /// The engine that answered; only where cells count otherwise for the query, and on an index of subgoals
+    /// that followed an edit.
     #[serde(skip_serializing_if = "Option::is_none")]
     searched_by: Option<&'static str>,
     /// The limit that stopped the search; only if the status is "stopped".

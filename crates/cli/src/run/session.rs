@@ -116,9 +116,11 @@ impl Session<'_> {
             Some(exceptions) => planner.except(&query(), exceptions)?,
             None => None,
         };
-        let searched_by = other.as_ref().map(|planner| planner.index().searched_by());
+        let is_other = other.is_some();
         let planner = other.as_mut().unwrap_or(planner);
         let Measured { answer, counters, nanos } = Measured::new(planner, query, run.repeat);
+        let may_differ = is_other || !planner.index().is_finished();
+        let searched_by = may_differ.then(|| planner.searched_by());
         if let Some(trace) = self.trace.take() {
             trace.write((grid, rules.placement()), planner, (item.ends, query()), &answer)?;
         }

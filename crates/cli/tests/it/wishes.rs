@@ -428,7 +428,7 @@ fn cells_count_otherwise_for_these_queries() {
     let (ran, queries, _) = told(&format!("{ends} --engine subgoal --free-ends --block 1,1 --block 2,0"));
     assert_eq!(ran["block"], serde_json::json!([[1, 1], [2, 0]]));
     assert!(
-        queries[0]["cost"].as_f64() > Some(3.0) && queries[0]["searched_by"] == "canonical",
+        queries[0]["cost"].as_f64() > Some(3.0) && queries[0]["searched_by"] == "jps-block",
         "{queries:?}"
     );
     let (_, queries, _) = told(&format!("run {map} --from 0,0 --to 0,2 --unblock 0,1"));
