@@ -241,7 +241,7 @@ def test_exceptions_are_edits(rng, engine):
 
 
 def test_mistakes_of_exceptions():
-    index = mediant.Grid.from_rows(["..#", "..."]).prepare()
+    index = mediant.Grid.from_rows(["..#", "..."]).prepare("astar")
     with pytest.raises(mediant.MapError, match=r"free: cell \(2, 0\) is outside"):
         index.find_except((0, 0), (1, 2), free=(2, 0))
     with pytest.raises(mediant.QueryError, match=r"the goal \(0, 2\) is blocked"):
