@@ -166,7 +166,7 @@ test("exceptions are edits, for one query", () => {
       if (answer.path) edited.space().check(answer.path);
     }
   }
-  const planner = Grid.fromRows(["..#", "..."]).space().prepare().planner();
+  const planner = Grid.fromRows(["..#", "..."]).space().prepare("astar").planner();
   assert.throws(() => planner.findExcept([0, 0], [2, 0], {}), { code: "goal-blocked" });
   assert.equal(planner.findExcept([0, 0], [2, 0], { freeEnds: true }).distance, 2);
   assert.equal(

@@ -111,7 +111,7 @@ const loaded: Index = edited.load(index.toBytes(), options);
 const repaired: Index = index.repair(edited);
 facts.push(index.engine, index.setup, index.guarantee, index.optimal, index.bound ?? 0, index.memoryBytes);
 facts.push(index.levels ?? "none", index.searchedBy);
-facts.push(loaded.origin === "loaded", repaired.space.grid.width);
+facts.push(loaded.origin === "loaded", repaired.finish().isFinished, repaired.space.grid.width);
 
 const wishes: Wishes = {
   nearest: true,
