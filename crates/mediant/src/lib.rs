@@ -121,9 +121,9 @@
 //! whose `change` is that of their spaces.
 //!
 //! An edit of one cell takes 4 to 19 µs in the mean with all of that on 512 × 512 cells, 9 to 39 µs up to
-//! 4096 × 4096; with HPA* 46 to 136 µs, and with JPS+ about as long. A path is [checked](Change::check)
-//! against a change, kept while it is a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where
-//! it broke.
+//! 4096 × 4096, at k ≤ 3 and any angle; with HPA* 46 to 136 µs (`docs/performance.md`), with JPS+ 7 to 45 µs
+//! in the median up to 2048 × 2048 (`docs/results/changes.md`). A path is [checked](Change::check) against a
+//! change, kept while it is a shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
 //!
 //! # Errors
 //!

@@ -92,9 +92,9 @@ pub(crate) struct ForcedTrees {
     steps: Vec<StepTest>,
     /// For each arriving move, the least side of a free square in which all its natural successors are legal.
     pub(crate) needed: Vec<u32>,
-    /// How many rows up and down from the vertex the trees look.
+    /// The rows up and down from the vertex at which the trees look.
     reach: i32,
-    /// How many columns to the left and to the right.
+    /// The columns to the left and to the right.
     reach_aside: i32,
 }
 
@@ -252,8 +252,8 @@ impl ForcedTrees {
         true
     }
 
-    /// How far from a vertex, along either axis, a cell can be that decides about a forced successor. (Of a
-    /// pair of which a move requires one, both are next to cells that it sweeps.)
+    /// The distance from a vertex, along either axis, up to which a cell can decide about a forced successor.
+    /// (Of a pair of which a move requires one, both are next to cells that it sweeps.)
     pub(crate) fn reach(&self) -> u32 {
         (self.reach.max(self.reach_aside) + 1).unsigned_abs()
     }

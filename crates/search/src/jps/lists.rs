@@ -59,7 +59,7 @@ pub(super) struct JumpLists {
     size: Size,
 }
 
-/// How much of the memory of lists is in use.
+/// The part of the memory of lists that is in use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Size {
     /// The starts and words from here on were never in use.

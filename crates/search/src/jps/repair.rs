@@ -70,8 +70,8 @@ pub(super) struct Repair<'r, P: Placement> {
 /// The work for a vertex of a zone, by that for a vertex from which the answer changes (12 ns).
 const OF_ZONE: u64 = 12;
 /// By how much more the whole takes than the zones, at least. (On the StarCraft map of the competition's
-/// sample 18 of 19 repairs were given up in the end; to know it before saves a tenth of the instructions of a
-/// change.)
+/// sample 18 of 19 repairs were given up in the end; to know it before saves 7 % of the instructions of the
+/// changes.)
 const BEYOND_ZONES: u64 = 2;
 /// Likewise that for a jump point that may be a dead end.
 const OF_DEAD_END: u64 = 8;

@@ -54,7 +54,7 @@ impl Nodes {
         self.words.len()
     }
 
-    /// How many of them the search has reached.
+    /// The number of them that the search has reached.
     pub(super) const fn known(&self) -> usize {
         self.known
     }

@@ -25,7 +25,7 @@ const SIDE: u32 = 512;
 const AGENTS: usize = 100;
 const FRAMES: usize = 300;
 
-/// How a loop comes to its paths after a door has changed.
+/// The way of a loop to its paths after a door has changed.
 #[derive(Clone, Copy, PartialEq)]
 enum Way {
     /// Everything follows the change.

@@ -20,7 +20,7 @@ pub(super) struct Repair<'v> {
     height: i32,
     /// The vertices that still hand on their distance, by distance.
     levels: Vec<Vec<Vertex>>,
-    /// How many more vertices may change.
+    /// The number of vertices that may still change.
     left: usize,
 }
 

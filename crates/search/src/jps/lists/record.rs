@@ -109,7 +109,7 @@ impl<P: Placement> Recorder<'_, P> {
         JumpContext { graph, pruning, goal: node.at, rules, stepwise: false, to_goal }
     }
 
-    /// How often a move can be repeated.
+    /// The number of times that a move can be repeated.
     fn length(&self, node: &ExpandedNode, index: usize) -> u32 {
         let context = self.context(node, &JumpRules::PLAIN);
         if index & 1 == 0 {

@@ -37,7 +37,7 @@ pub(super) struct Stale<'s, P: Placement> {
     /// Where axial jumps stop before the change, and after it.
     pub(super) axial: [&'s AxialStops; 2],
     pub(super) interrupt: &'s Interrupt,
-    /// How many more vertices, and words of diagonals, it may look at.
+    /// The number of vertices, and of words of diagonals, that it may still look at.
     pub(super) left: usize,
 }
 
