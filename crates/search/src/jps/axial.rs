@@ -21,6 +21,10 @@ use mediant_moves::FiniteK;
 
 use super::{DURING, zone::Zone};
 
+mod answers;
+
+pub(super) use self::answers::Answers;
+
 /// Where an axial jump ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Scan {
@@ -105,12 +109,12 @@ impl JumpPointRule {
     /// The ends at vertex `u` of line `v` of a matrix and at the next 63 vertices of the jump.
     fn ends_from<P: Placement>(self, matrix: &BitMatrix, (u, v): (i32, i32), forward: bool) -> JumpStops {
         let (at, row) = (matrix.index(u, v), matrix.bits_per_row());
-        self.ends(|ahead, beside| {
-            // Backward, the cell of the first vertex is the last of the 64; at corners it is the one before.
-            let first = if forward { ahead } else { P::cell(-1, 0) - ahead - 63 };
-            let word = load(matrix.words(), at.offset(first + beside * row));
-            if forward { word } else { word.reverse_bits() }
-        })
+        // Backward, the cell of the first vertex is the last of the 64; at corners it is the one before.
+        let (first, sign) = if forward { (0, 1) } else { (P::cell(-1, 0) - 63, -1) };
+        let ends =
+            self.ends(|ahead, beside| load(matrix.words(), at.offset(first + sign * ahead + beside * row)));
+        let turned = |word: u64| if forward { word } else { word.reverse_bits() };
+        JumpStops { jump: turned(ends.jump), dead: turned(ends.dead) }
     }
 }
 
@@ -141,14 +145,6 @@ pub(super) struct JumpPoint {
     pub(super) at: Vertex,
     pub(super) quarter: usize,
     pub(super) is_dead_end: bool,
-}
-
-/// A vertex that the jumps of a direction find otherwise than before an edit, and the number of its zone.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Difference {
-    pub(super) zone: usize,
-    pub(super) at: Vertex,
-    pub(super) quarter: usize,
 }
 
 /// Whether the jumps of a direction go along a column, and whether to larger coordinates.
@@ -214,8 +210,8 @@ const fn vertex_of(is_vertical: bool, (u, line): (i32, i32)) -> Vertex {
 
 /// A word of a line of a plane.
 #[derive(Clone, Copy, Debug)]
-struct LineWord {
-    quarter: usize,
+pub(super) struct LineWord {
+    pub(super) quarter: usize,
     word: usize,
     /// The bits that are looked at.
     bits: u64,
@@ -226,7 +222,7 @@ struct LineWord {
 impl LineWord {
     /// Calls `visit` with the vertices of some of its bits, and with the bits.
     #[inline]
-    fn for_each(self, bits: u64, mut visit: impl FnMut(Vertex, u64)) {
+    pub(super) fn for_each(self, bits: u64, mut visit: impl FnMut(Vertex, u64)) {
         let ((is_vertical, is_forward), (u, line)) = (direction(self.quarter), self.place);
         let mut left = bits & self.bits;
         while left != 0 {
@@ -289,33 +285,40 @@ impl AxialStops {
 
     /// The planes of a grid graph of the same size, on which jumps may find the vertices of these zones
     /// otherwise, and no others. No jump point of a zone is a dead end. With those that they find otherwise,
-    /// in the order of the zones.
+    /// each with the direction of the jumps.
     pub(super) fn with_zones<P: Placement>(
         &self,
         graph: &GridGraph<P>,
         zones: &[Zone],
         interrupt: &Interrupt,
-    ) -> Result<(Self, Vec<Difference>), Interrupted> {
+    ) -> Result<(Self, Vec<(Vertex, usize)>), Interrupted> {
         let (grid, rule) = (graph.grid(), JumpPointRule::of(graph));
         let (mut edit, mut differences) = (self.words.edit(), Vec::new());
-        for (zone, &vertices) in zones.iter().enumerate() {
+        for &zone in zones {
             interrupt.check(DURING)?;
             for quarter in 0..4 {
                 let (vertical, forward) = direction(quarter);
                 let matrix = if vertical { grid.columns() } else { grid.rows() };
-                self.planes[quarter].for_each_word(quarter, vertices, |line| {
+                self.planes[quarter].for_each_word(quarter, zone, |line| {
                     let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, line.place, forward);
                     let [one, other] = edit.words()[line.word];
                     let with = |was: u64, is: u64| was & !line.bits | is & line.bits;
                     let (is, was) = ([with(one, jump | dead), with(other, dead)], self.words[line.word]);
                     edit.set(line.word, is);
-                    line.for_each(was[0] ^ is[0] | was[1] ^ is[1], |at, _| {
-                        differences.push(Difference { zone, at, quarter });
-                    });
+                    line.for_each(was[0] ^ is[0] | was[1] ^ is[1], |at, _| differences.push((at, quarter)));
                 });
             }
         }
         Ok((Self { planes: self.planes, words: edit.finish() }, differences))
+    }
+
+    /// Makes those jump points dead ends that are dead ends in planes of the same size.
+    pub(super) fn take_dead_ends(&mut self, before: &Self) {
+        for ([one, other], [was_one, was_other]) in self.words.make_mut().iter_mut().zip(before.words.iter())
+        {
+            let dead_ends = was_other & !was_one & *one & !*other;
+            (*one, *other) = (*one & !dead_ends, *other | dead_ends);
+        }
     }
 
     /// These planes, where jump points may be dead ends or not.

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Change, Grid, GridGraph, Identity, Interrupt, Placement, Vertex, uninterrupted};
+use mediant_grid::{
+    Change, Grid, GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex, uninterrupted,
+};
 use mediant_moves::KError;
 
 use super::{
@@ -87,7 +89,22 @@ impl BlockFinder {
     ) -> Result<Self, JumpError> {
         match self.followed(graph, pruning, change, interrupt)? {
             Some((finder, _)) => Ok(finder),
-            None => Ok(Self::with_planes(graph, JumpPlanes::new(graph, pruning, interrupt)?)),
+            None => Ok(Self::with_planes(graph, self.planes_after(graph, pruning, change, interrupt)?)),
+        }
+    }
+
+    /// New planes of the grid graph after a change, by what these know of dead ends.
+    pub(super) fn planes_after<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<JumpPlanes, Interrupted> {
+        let stops = (&*self.axial, &*self.diagonals, self.reach);
+        match pruning.table() {
+            Some(table) => Repair::new(graph, table, stops, interrupt).anew(pruning, change),
+            None => JumpPlanes::new(graph, pruning, interrupt),
         }
     }
 

@@ -174,10 +174,12 @@ impl DiagonalEdit<'_> {
     pub(super) fn change(&mut self, at: Vertex, index: usize, next: impl FnOnce([bool; 3]) -> [bool; 3]) {
         let place = self.before.place(at, index);
         let (word, bit) = ((place >> 6) as usize, place & 63);
-        let known = self.words.words()[word];
-        let stops = next(known.map(|word| word >> bit & 1 == 1));
-        let with = |i: usize| known[i] & !(1 << bit) | u64::from(stops[i]) << bit;
-        self.words.set(word, [with(0), with(1), with(2)]);
+        let known = self.words.words()[word].map(|word| word >> bit & 1 == 1);
+        let next = next(known);
+        if next != known {
+            let changed = self.words.word_mut(word).iter_mut().zip(known).zip(next);
+            changed.for_each(|((word, was), is)| *word ^= u64::from(was != is) << bit);
+        }
     }
 
     /// The next version.

@@ -8,6 +8,7 @@ use super::{
     dead_ends::{DeadEndRows, REACH, find::DeadEndFinder},
     diagonals::DiagonalStops,
     stop_rows::Leads,
+    zone::Zone,
 };
 use crate::canonical::Pruning;
 
@@ -43,9 +44,14 @@ impl JumpPlanes {
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let axial = AxialStops::new(graph, interrupt)?;
+        let reach = if Self::should_have_dead_ends(graph, &axial) { REACH } else { 0 };
+        Self::with_dead_ends(graph, pruning, axial, reach, interrupt)
+    }
+
+    /// Whether dead ends are looked for, among these jump points.
+    pub(super) fn should_have_dead_ends<P: Placement>(graph: &GridGraph<P>, axial: &AxialStops) -> bool {
         let vertices = graph.vertex_count() as u64;
-        let pays = Self::may_have_dead_ends(graph) && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices;
-        Self::with_dead_ends(graph, pruning, axial, if pays { REACH } else { 0 }, interrupt)
+        Self::may_have_dead_ends(graph) && VERTICES_A_JUMP_POINT * axial.jump_points() <= vertices
     }
 
     /// Whether dead ends are looked for, if there are not too many jump points.
@@ -75,5 +81,23 @@ impl JumpPlanes {
         }
         let diagonals = DiagonalStops::new(graph, pruning, [&leads; 2], interrupt)?;
         Ok(Self { axial, diagonals, dead_ends, reach: 0 })
+    }
+
+    /// Where those are the dead ends that the planes of axial jumps say.
+    pub(super) fn with_known_dead_ends<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        (axial, reach): (AxialStops, u32),
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let map = Zone::map::<P>(graph.grid());
+        let mut dead_ends = DeadEndRows::new(P::vertices(graph.grid()));
+        for quarter in (0..4).step_by(8 / graph.steps().len()) {
+            axial.for_each_jump_point((map, quarter), true, |point| dead_ends.add(point.at, quarter));
+        }
+        let [leads, live] =
+            [&DeadEndRows::default(), &dead_ends].map(|dead| Leads::new(graph, dead, interrupt));
+        let diagonals = DiagonalStops::new(graph, pruning, [&leads?, &live?], interrupt)?;
+        Ok(Self { axial, diagonals, dead_ends, reach })
     }
 }

@@ -7,27 +7,37 @@
 //! the two axial jumps from there come to a jump point. The answer of a jump from p to its next vertex q
 //! depends on how jumps find q, and if they pass it, on the answer from q. So where the answer from p
 //! changes, either q is found otherwise, or the answer from q changes. All such p are found from the vertices
-//! that are found otherwise, by going back against the jumps as long as the answer changes.
+//! that are found otherwise, by going back against the jumps, 64 vertices at a time, as long as the answer
+//! changes.
 //!
 //! Whether a jump point p is a [dead end](super::dead_ends) follows from the patterns of vertices within the
 //! reach of p, from the jump points within it, and from whether jumps from vertices within it come to jump
 //! points. So all dead ends within reach of a zone, or of a vertex from which the answer changes, are looked
-//! at again, and no others. None of this depends on which of them are dead ends. Once that is known, jumps
-//! that pass dead ends have changes of their own, which begin where one begins or ceases to be.
+//! at again, and few others: these vertices are kept as tiles. None of this depends on which of them are dead
+//! ends. Once that is known, jumps that pass dead ends have changes of their own, which begin where one begins
+//! or ceases to be.
 //!
 //! A dead end that is not known to be one costs a search some time, and no path. So other jump points are
 //! looked at only close to the zones. But for these, the result is equal to new planes, bit by bit.
+//!
+//! Where a change alters much, new planes are made sooner. They look at the same dead ends, and no others: to
+//! look for all takes as long as the rest of them twice.
 
 use mediant_grid::{BitMatrix, Change, Grid, GridGraph, Interrupt, Interrupted, Placement, Vertex};
 
 use super::{
     DURING,
-    axial::{AxialStops, Difference, Finding, JumpPoint},
+    axial::{Answers, AxialStops, JumpPoint, LineWord},
     dead_ends::find::DeadEndFinder,
     diagonals::{DiagonalEdit, DiagonalStops},
+    planes::JumpPlanes,
     zone::Zone,
 };
-use crate::canonical::PatternTable;
+use crate::canonical::{PatternTable, Pruning};
+
+mod tiles;
+
+use self::tiles::Tiles;
 
 /// Why a repair ended without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,11 +83,8 @@ const OF_ZONE: u64 = 12;
 /// sample 18 of 19 repairs were given up in the end; to know it before saves 7 % of the instructions of the
 /// changes.)
 const BEYOND_ZONES: u64 = 2;
-/// Likewise that for a jump point that may be a dead end.
-const OF_DEAD_END: u64 = 8;
-/// Likewise that for six vertices of new planes without dead ends, and with them.
+/// Likewise that for three vertices of new planes. (The dead ends that are looked at are the same.)
 const NEW: u64 = 2;
-const NEW_WITH_DEAD_ENDS: u64 = 4;
 /// The distance from a zone up to which new dead ends are looked for.
 const NEAR: i32 = 4;
 
@@ -89,8 +96,7 @@ impl<'r, P: Placement> Repair<'r, P> {
         (axial, diagonals, reach): (&'r AxialStops, &'r DiagonalStops, u32),
         interrupt: &'r Interrupt,
     ) -> Self {
-        let new = if reach > 0 { NEW_WITH_DEAD_ENDS } else { NEW };
-        let left = graph.vertex_count() as u64 * new / 6;
+        let left = graph.vertex_count() as u64 * NEW / 3;
         let map = Zone::map::<P>(graph.grid());
         Self { graph, table, interrupt, axial, diagonals, reach, map, left }
     }
@@ -108,17 +114,23 @@ impl<'r, P: Placement> Repair<'r, P> {
         // The rest takes more: it is not begun if it would be given up.
         self.spend(BEYOND_ZONES * work)?;
         self.left += (BEYOND_ZONES - 1) * work;
-        let (mut axial, mut differences) = self.axial.with_zones(self.graph, &zones, self.interrupt)?;
-        differences.retain(|difference| difference.quarter.is_multiple_of(8 / self.graph.steps().len()));
-        let mut points = Vec::new();
+        let (mut axial, mut found) = self.axial.with_zones(self.graph, &zones, self.interrupt)?;
+        found.retain(|(_, quarter)| quarter.is_multiple_of(8 / self.graph.steps().len()));
+        let mut words = words_of(&axial, &found);
         if self.reach > 0 {
             if self.graph.has_closed_gaps() {
                 // Then there are no dead ends.
                 return Err(Stop::TooMuch);
             }
-            points = self.jump_points(&axial, &zones, &differences)?;
+            let points = self.jump_points(&axial, &zones, &words)?;
             if !points.is_empty() {
                 axial = axial.with_jump_points(&points);
+                let points = points.into_iter().map(|JumpPoint { at, quarter, .. }| (at, quarter));
+                found.extend(points.filter(|&(at, quarter)| {
+                    let [was, is] = self.axial.findings(&axial, at, quarter);
+                    was != is
+                }));
+                words = words_of(&axial, &found);
             }
         }
         let mut edit = self.diagonals.edit();
@@ -126,17 +138,38 @@ impl<'r, P: Placement> Repair<'r, P> {
             self.interrupt.check(DURING)?;
             self.set_zone(&axial, (change.before(), zone), &mut edit);
         }
-        let points = points.into_iter().map(|JumpPoint { at, quarter, .. }| (at, quarter));
-        let mut found: Vec<_> = differences.into_iter().map(|found| (found.at, found.quarter)).collect();
-        found.extend(points.filter(|&(at, quarter)| {
-            let [was, is] = self.axial.findings(&axial, at, quarter);
-            was != is
-        }));
-        for (number, &(at, quarter)) in found.iter().enumerate() {
-            self.interrupt.check_every(64, number, DURING)?;
-            self.set_before(&axial, (at, quarter), &mut edit)?;
-        }
+        let before = self.axial;
+        axial.for_each_other_answer(before, &words, |line, [was, is]| {
+            let bits = was.any ^ is.any | was.live ^ is.live;
+            self.spend(bits.count_ones().into())?;
+            self.interrupt.check(DURING)?;
+            self.set_line(&axial, (line, bits, is), &mut edit);
+            Ok::<(), Stop>(())
+        })?;
         Ok((axial, edit.finish(), Altered { zones, found }))
+    }
+
+    /// New planes, where only those dead ends are looked for that the change may alter: as in
+    /// [`follow`](Self::follow).
+    pub(super) fn anew(mut self, pruning: &Pruning<P>, change: &Change) -> Result<JumpPlanes, Interrupted> {
+        if self.reach == 0 {
+            return JumpPlanes::new(self.graph, pruning, self.interrupt);
+        }
+        let mut axial = AxialStops::new(self.graph, self.interrupt)?;
+        if !JumpPlanes::should_have_dead_ends(self.graph, &axial) {
+            return JumpPlanes::with_dead_ends(self.graph, pruning, axial, 0, self.interrupt);
+        }
+        axial.take_dead_ends(self.axial);
+        self.left = u64::MAX;
+        let (zones, words) = (Zone::of_change::<P>(change), axial.words_unlike(self.axial));
+        match self.jump_points(&axial, &zones, &words) {
+            Ok(points) => {
+                let axial = axial.with_jump_points(&points);
+                JumpPlanes::with_known_dead_ends(self.graph, pruning, (axial, self.reach), self.interrupt)
+            }
+            Err(Stop::Interrupted(interrupted)) => Err(interrupted),
+            Err(Stop::TooMuch) => JumpPlanes::new(self.graph, pruning, self.interrupt),
+        }
     }
 
     /// The directions of axial jumps.
@@ -165,114 +198,99 @@ impl<'r, P: Placement> Repair<'r, P> {
         &mut self,
         axial: &AxialStops,
         zones: &[Zone],
-        differences: &[Difference],
+        words: &[usize],
     ) -> Result<Vec<JumpPoint>, Stop> {
-        let finder = DeadEndFinder { graph: self.graph, table: self.table, leads: None, reach: self.reach };
-        let (mut changed, mut points) = (Vec::new(), Vec::new());
-        let mut differences = differences.iter().peekable();
-        for (number, &zone) in zones.iter().enumerate() {
+        let reach = self.reach as i32;
+        // The vertices within reach of a zone, or of a vertex from which jumps lead elsewhere.
+        let mut tiles = Tiles::new(self.map, 3);
+        zones.iter().for_each(|zone| tiles.add(zone.grown(reach, reach)));
+        let left = self.left;
+        axial.for_each_other_answer(self.axial, words, |line, [was, is]| {
+            let bits = was.any ^ is.any;
+            if bits != 0 {
+                let [first, last] =
+                    [bits.trailing_zeros(), 63 - bits.leading_zeros()].map(|bit| line.vertex(bit));
+                tiles.add(Zone::around(first, last).grown(reach, reach));
+            }
+            self.spend(bits.count_ones().into())
+        })?;
+        // The bits of these vertices are still to be set: dead ends are not looked at if that would be too much.
+        self.left = left;
+        let mut points = Vec::new();
+        for zone in tiles.zones() {
             self.interrupt.check(DURING)?;
-            // In rows and in columns jumps lead elsewhere from there.
-            let (mut wide, mut high) = (zone, zone);
-            while let Some(&Difference { at, quarter, .. }) = differences.next_if(|next| next.zone == number)
-            {
-                let along = if quarter.is_multiple_of(2) { &mut high } else { &mut wide };
-                self.for_each_before(axial, (at, quarter), false, |_, at, _| *along = along.with(at))?;
-            }
-            let reach = self.reach as i32;
-            let [wide, high] = [wide, high].map(|zone| zone.grown(reach, reach).within(self.map));
-            let near = zone.grown(NEAR, NEAR).within(self.map);
             for quarter in self.quarters() {
-                axial.for_each_jump_point((near, quarter), false, |point| points.push(point));
-                for (zone, others) in [(wide, near), (high, wide)] {
-                    axial.for_each_jump_point((zone, quarter), true, |point| {
-                        if !others.holds(point.at) {
-                            points.push(point);
-                        }
-                    });
-                }
+                axial.for_each_jump_point((zone, quarter), true, |point| points.push(point));
             }
-            self.spend(points.len() as u64 * OF_DEAD_END)?;
-            changed.extend(points.drain(..).filter_map(|point| {
-                let is_dead_end = finder.holds(axial, point.at, point.quarter);
-                (is_dead_end != point.is_dead_end).then_some(JumpPoint { is_dead_end, ..point })
-            }));
+        }
+        let near = zones.iter().map(|zone| zone.grown(NEAR, NEAR));
+        let near = if let [_] = zones {
+            near.map(|zone| zone.within(self.map)).collect()
+        } else {
+            let mut tiles = Tiles::new(self.map, 2);
+            near.for_each(|zone| tiles.add(zone));
+            tiles.zones()
+        };
+        for zone in near {
+            for quarter in self.quarters() {
+                axial.for_each_jump_point((zone, quarter), false, |point| {
+                    if !point.is_dead_end {
+                        points.push(point);
+                    }
+                });
+            }
+        }
+        let finder = DeadEndFinder { graph: self.graph, table: self.table, leads: None, reach: self.reach };
+        let mut changed = Vec::new();
+        for (number, point) in points.into_iter().enumerate() {
+            self.interrupt.check_every(64, number, DURING)?;
+            let is_dead_end = finder.holds(axial, point.at, point.quarter);
+            if is_dead_end != point.is_dead_end {
+                changed.push(JumpPoint { is_dead_end, ..point });
+            }
         }
         Ok(changed)
     }
 
-    /// The findings of a vertex by jumps, before and after the change. Without dead ends these are jump
-    /// points like others.
-    fn findings(&self, axial: &AxialStops, at: Vertex, quarter: usize, with_dead_ends: bool) -> [Finding; 2] {
-        self.axial.findings(axial, at, quarter).map(|end| match end {
-            Finding::DeadEnd if !with_dead_ends => Finding::JumpPoint,
-            end => end,
-        })
-    }
-
-    /// For a vertex that jumps in a direction find otherwise than before: calls `visit` with the vertices in
-    /// front of it from which they come to a jump point and did not, or the other way, whether they pass dead
-    /// ends or, `with_dead_ends`, do not; and with whether they do so now. It ends where they find the next
-    /// vertex otherwise, which has a call of its own.
-    fn for_each_before(
-        &mut self,
+    /// Sets the bits of the diagonal planes that change because from some vertices of a line jumps lead
+    /// elsewhere.
+    fn set_line(
+        &self,
         axial: &AxialStops,
-        (found, quarter): (Vertex, usize),
-        with_dead_ends: bool,
-        mut visit: impl FnMut(&Self, Vertex, Answer),
-    ) -> Result<(), Stop> {
-        let back = -self.graph.step(self.even(quarter)).vector();
-        let mut at = found + back;
-        if !self.map.holds(at) {
-            return Ok(());
-        }
-        let [mut before, mut after] =
-            [self.axial, axial].map(|axial| answer(axial, at, quarter, with_dead_ends));
-        while before != after {
-            self.spend(1)?;
-            visit(self, at, after);
-            match self.findings(axial, at, quarter, with_dead_ends) {
-                [was, is] if was != is => break,
-                [Finding::Blocked | Finding::JumpPoint, _] => break,
-                // Only where dead ends count.
-                [Finding::DeadEnd, _] => (before.any, after.any) = (true, true),
-                [Finding::Passed, _] => {}
-            }
-            at = at + back;
-            if !self.map.holds(at) {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Sets the bits of the diagonal planes that change because jumps in a direction find a vertex otherwise.
-    fn set_before(
-        &mut self,
-        axial: &AxialStops,
-        (found, quarter): (Vertex, usize),
+        (line, bits, answers): (LineWord, u64, Answers),
         edit: &mut DiagonalEdit<'_>,
-    ) -> Result<(), Stop> {
-        let (even, last) = (self.even(quarter), self.graph.steps().len() - 1);
-        self.for_each_before(axial, (found, quarter), self.reach > 0, |repair, at, known| {
-            let here = repair.here(repair.graph.grid(), at);
-            // The jump is the first one beside the next odd move, and the second one beside the last.
-            let [next, previous] = [even + 1, even + last].map(|odd| odd & last);
-            for (i, index, other) in [(0, next, even + 2), (1, previous, even + last - 1)] {
-                let here = here.by(index);
-                if !here.enters {
-                    continue;
-                }
-                edit.change(at, index, |[stops, first, second]| {
+    ) {
+        let (even, last) = (self.even(line.quarter), self.graph.steps().len() - 1);
+        // The jump is the first one beside the next odd move, and the second one beside the last.
+        let [next, previous] = [even + 1, even + last].map(|odd| odd & last);
+        let beside = [(0, next, even + 2), (1, previous, even + last - 1)];
+        let beside = beside.map(|(i, index, other)| (i, index, self.quarter(other & last)));
+        line.for_each(bits, |at, bit| {
+            if !self.map.holds(at) {
+                return;
+            }
+            let answer = answers.of(bit);
+            for (i, index, other) in beside {
+                edit.change(at, index, |known| {
+                    let [stops, first, second] = known;
                     let mut any = [first, second];
-                    any[i] = known.any;
-                    let other = repair.quarter(other & last);
+                    // A vertex that the diagonal jump cannot enter stops it, and no jump leads on from there.
+                    let is_known = !stops || first || second;
+                    let here = if is_known && !self.table.diagonals_may_force() {
+                        Arrival { enters: true, forced: false }
+                    } else {
+                        self.here(self.graph.grid(), at).by(index)
+                    };
+                    if !here.enters {
+                        return known;
+                    }
+                    any[i] = answer.any;
                     // If that jump passed dead ends to a jump point, it was said to stop this one.
-                    let passes = || repair.reach == 0 || stops && axial.scan(at, other, false).found;
-                    [here.forced || known.live || any[1 - i] && passes(), any[0], any[1]]
+                    let passes = || self.reach == 0 || stops && axial.scan(at, other, false).found;
+                    [here.forced || answer.live || any[1 - i] && passes(), any[0], any[1]]
                 });
             }
-        })
+        });
     }
 
     /// Sets those bits of a zone in the diagonal planes that the pattern of cells decides.
@@ -289,7 +307,7 @@ impl<'r, P: Placement> Repair<'r, P> {
                     if !here.enters {
                         return [true, false, false];
                     }
-                    let answers = beside.map(|even| answer(axial, at, self.quarter(even), self.reach > 0));
+                    let answers = beside.map(|even| axial.answer(at, self.quarter(even)));
                     let live = answers.iter().any(|answer| answer.live);
                     [here.forced || live, answers[0].any, answers[1].any]
                 });
@@ -345,18 +363,14 @@ fn is_gap(rows: &BitMatrix, at: Vertex) -> bool {
     a == d && b == c && a != b
 }
 
-/// Whether an axial jump comes to a jump point.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Answer {
-    any: bool,
-    /// Whether it does where it passes dead ends.
-    live: bool,
-}
-
-/// Whether the axial jump from a vertex comes to a jump point. Without dead ends, all of them are others.
-fn answer(axial: &AxialStops, at: Vertex, quarter: usize, with_dead_ends: bool) -> Answer {
-    let any = axial.scan(at, quarter, true).found;
-    Answer { any, live: any && (!with_dead_ends || axial.scan(at, quarter, false).found) }
+/// The words that hold vertices as jumps in a direction find them, in order.
+fn words_of(axial: &AxialStops, found: &[(Vertex, usize)]) -> Vec<usize> {
+    let mut words: Vec<_> = found.iter().map(|&(at, quarter)| axial.word_of(at, quarter)).collect();
+    // Most of them follow one another.
+    words.dedup();
+    words.sort_unstable();
+    words.dedup();
+    words
 }
 
 #[cfg(test)]

@@ -230,6 +230,8 @@ fn leads<P: Placement>(
     };
     let mut leads = vec![0; per_row * height as usize];
     let ascending = v.x + v.y > 0;
+    // The ends of the word that the jumps of a row enter next.
+    let mut next_ends = [0; 2];
     // Each word after the one that the jump enters next.
     for i in 0..leads.len() {
         interrupt.check_every(1 << 10, i, DURING)?;
@@ -246,9 +248,10 @@ fn leads<P: Placement>(
             // leads to one.
             let next = (word % per_row) as isize + v.x as isize;
             let inside = (0..per_row as isize).contains(&next);
-            let next = word.wrapping_add_signed(v.x as isize);
-            let ([jump, enters], beyond) = (ends(word), if inside { leads[next] } else { 0 });
-            let [next_jump, next_enters] = if inside { ends(next) } else { [0, 0] };
+            let beyond = if inside { leads[word.wrapping_add_signed(v.x as isize)] } else { 0 };
+            let [next_jump, next_enters] = if inside { next_ends } else { [0, 0] };
+            let [jump, enters] = ends(word);
+            next_ends = [jump, enters];
             if ascending {
                 let shifted = |word: u64, next: u64| word >> 1 | next << 63;
                 let enters = shifted(enters, next_enters);

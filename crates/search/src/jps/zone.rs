@@ -44,11 +44,10 @@ impl Zone {
         Self { first, last: Vertex::new(last.x.min(other.last.x), last.y.min(other.last.y)) }
     }
 
-    /// The smallest one around it and a vertex.
-    pub(super) fn with(self, at: Vertex) -> Self {
-        let Self { first, last } = self;
-        let first = Vertex::new(first.x.min(at.x), first.y.min(at.y));
-        Self { first, last: Vertex::new(last.x.max(at.x), last.y.max(at.y)) }
+    /// The smallest one that holds two vertices.
+    pub(super) fn around(a: Vertex, b: Vertex) -> Self {
+        let first = Vertex::new(a.x.min(b.x), a.y.min(b.y));
+        Self { first, last: Vertex::new(a.x.max(b.x), a.y.max(b.y)) }
     }
 
     pub(super) fn holds(self, at: Vertex) -> bool {
@@ -72,14 +71,13 @@ impl Zone {
 /// Rectangles of the cells that a change alters, and of no others.
 fn changed(change: &Change) -> Vec<Rectangle> {
     let mut all = Vec::new();
+    // Runs that end in the last row go on where the same cells of the next row change.
+    let (mut open, mut next): (Vec<Rectangle>, Vec<Rectangle>) = (Vec::new(), Vec::new());
     for &Rectangle { x, y, width, height } in change.cells() {
-        // Runs that end in the last row go on where the same cells of the next row change.
-        let mut open: Vec<Rectangle> = Vec::new();
         for y in y..y + height {
             let word = |grid: &Grid| load(grid.rows().words(), grid.rows().index(x as i32, y as i32));
             // A rectangle of a change is no wider than a word.
             let mut left = (word(change.before()) ^ word(change.after())) & !0 >> (64 - width.clamp(1, 64));
-            let mut next = Vec::new();
             while left != 0 {
                 let first = left.trailing_zeros();
                 let run = Rectangle::new(x + first, y, (left >> first).trailing_ones(), 1);
@@ -94,7 +92,7 @@ fn changed(change: &Change) -> Vec<Rectangle> {
                 });
             }
             all.append(&mut open);
-            open = next;
+            std::mem::swap(&mut open, &mut next);
         }
         all.append(&mut open);
     }

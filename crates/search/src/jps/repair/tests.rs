@@ -112,6 +112,9 @@ struct Planes {
     /// The dead ends of repaired planes, and of new ones.
     dead_ends: u64,
     of_new_ones: u64,
+    /// The same of planes that were made anew.
+    kept: u64,
+    of_new: u64,
     /// The marks that ceased to be, and that came to be.
     gone: u64,
     come: u64,
@@ -135,8 +138,11 @@ impl Test for Planes {
                 format!("step {step}, k = {k}, reach {reach}, {:?}, {name}", change.cells())
             };
             let stops = (&is.axial, &is.diagonals, reach);
-            let repair = Repair::new(&graph, pruning.table().unwrap(), stops, never).without_limit();
-            match repair.follow(&change) {
+            let repair = || Repair::new(&graph, pruning.table().unwrap(), stops, never).without_limit();
+            if step % 4 == 0 {
+                self.made_anew(&graph, &pruning, repair().anew(&pruning, &change).unwrap(), case);
+            }
+            match repair().follow(&change) {
                 Ok((axial, diagonals, _)) => {
                     let (known, all) = (dead_ends(&graph, &axial), dead_ends(&graph, &new.axial));
                     assert!(known.is_subset(&all), "dead ends, {}", case());
@@ -161,6 +167,28 @@ impl Test for Planes {
             }
             map = Arc::clone(change.after());
         }
+    }
+}
+
+impl Planes {
+    /// Planes that were made anew, with what was known of dead ends.
+    fn made_anew<P: Placement>(
+        &mut self,
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        is: JumpPlanes,
+        case: impl Fn() -> String,
+    ) {
+        let (known, new) = (dead_ends(graph, &is.axial), planes(graph, pruning, is.reach));
+        let all = dead_ends(graph, &new.axial);
+        assert!(known.is_subset(&all), "dead ends of new planes, {}", case());
+        let point = |&(at, quarter)| JumpPoint { at, quarter, is_dead_end: true };
+        let points: Vec<JumpPoint> = all.iter().map(point).collect();
+        assert!(is.axial.with_jump_points(&points) == new.axial, "new axial planes, {}", case());
+        assert!(is.diagonals == with_dead_ends(graph, pruning, &known), "new diagonal planes, {}", case());
+        let rows = known.iter().map(|&(at, quarter)| is.dead_ends.in_row(quarter, (at.x, at.y)) & 1);
+        assert_eq!(rows.sum::<u64>(), known.len() as u64, "rows of dead ends, {}", case());
+        (self.kept, self.of_new) = (self.kept + known.len() as u64, self.of_new + all.len() as u64);
     }
 }
 
@@ -193,9 +221,10 @@ fn with_dead_ends<P: Placement>(
 fn repaired_planes_are_new_ones() {
     let mut test = Planes::default();
     on_all(seeds(8), &mut test);
-    let Planes { repaired, anew, dead_ends, of_new_ones, gone, come } = test;
+    let Planes { repaired, anew, dead_ends, of_new_ones, kept, of_new, gone, come } = test;
     assert!(repaired > 1_200 && anew > 10, "{repaired} repaired, {anew} anew");
     assert!(dead_ends * 20 > of_new_ones * 19, "{dead_ends} of {of_new_ones} dead ends");
+    assert!(kept * 20 > of_new * 19 && kept > 500, "{kept} of {of_new} dead ends of new planes");
     assert!(gone > 500 && come > 500, "{gone}, {come}");
 }
 
