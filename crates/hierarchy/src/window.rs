@@ -81,13 +81,6 @@ pub(crate) const fn low_bits(count: u32) -> u64 {
     if count >= 64 { !0 } else { (1 << count) - 1 }
 }
 
-/// The set of these cells.
-pub(crate) fn rows_of(cells: &[u32]) -> Rows {
-    let mut rows = [0; MAX_SIDE as usize];
-    cells.iter().for_each(|&cell| insert(&mut rows, cell));
-    rows
-}
-
 #[inline]
 pub(crate) const fn contains(rows: &Rows, cell: u32) -> bool {
     rows[(cell / MAX_SIDE) as usize] >> (cell % MAX_SIDE) & 1 == 1

@@ -25,19 +25,18 @@ struct Queue {
 }
 
 impl Queue {
-    fn first(&self) -> Option<Cost> {
-        self.sets.get(self.next).map(|&(cost, _)| cost)
+    /// The cost of the first set.
+    #[inline]
+    fn first(&self) -> Cost {
+        self.sets.get(self.next).map_or(Cost::MAX, |&(cost, _)| cost)
     }
 
-    /// Takes the first set if its cost is this.
-    fn take(&mut self, cost: Cost) -> Cells {
-        match self.sets.get(self.next) {
-            Some(&(first, cells)) if first == cost => {
-                self.next += 1;
-                cells
-            }
-            _ => 0,
-        }
+    /// Takes the first set.
+    #[inline]
+    fn take(&mut self) -> Cells {
+        let cells = self.sets.get(self.next).map_or(0, |&(_, cells)| cells);
+        self.next += 1;
+        cells
     }
 
     fn clear(&mut self) {
@@ -52,6 +51,8 @@ pub(crate) struct BitSearch {
     /// `None` for four neighbors.
     diagonal: Option<Cost>,
     queues: [Queue; 2],
+    /// The costs from the first cell of the last search to its targets, by the bits of these.
+    costs: [FixedCost; Cells::BITS as usize],
 }
 
 /// The cells of a small cluster and the moves between them.
@@ -74,9 +75,13 @@ impl BitCells {
         Some(Self { free, down: [upper & upper >> 1, upper & upper << 1] })
     }
 
+    const fn bit(cell: u32) -> u32 {
+        cell / MAX_SIDE * PITCH + cell % MAX_SIDE
+    }
+
     /// The set of the cell of a window with this number.
     pub(crate) const fn cell(cell: u32) -> Cells {
-        1 << (cell / MAX_SIDE * PITCH + cell % MAX_SIDE)
+        1 << Self::bit(cell)
     }
 
     fn axial(&self, from: Cells) -> Cells {
@@ -99,28 +104,46 @@ impl BitSearch {
             axial: Cost::of_move(Vector::new(1, 0)),
             diagonal: (k != FiniteK::N4).then(|| Cost::of_move(Vector::new(1, 1))),
             queues: Default::default(),
+            costs: [FixedCost::NONE; Cells::BITS as usize],
         }
     }
 
-    /// Finds the costs from one cell to others, each a set of its own. Those of cells that are not reached
-    /// stay as they are.
-    pub(crate) fn find(&mut self, cells: &BitCells, from: Cells, to: &[Cells], costs: &mut [FixedCost]) {
-        let Self { axial, diagonal, queues: [by_axial, by_diagonal] } = self;
+    /// The cost from the first cell of the last search to a target of it, with this number in the window.
+    pub(crate) fn cost(&self, cell: u32) -> FixedCost {
+        self.costs[BitCells::bit(cell) as usize]
+    }
+
+    /// Finds the costs from one cell to others, to be read by [`cost`](Self::cost).
+    pub(crate) fn find(&mut self, cells: &BitCells, from: Cells, targets: Cells) {
+        let Self { axial, diagonal, queues: [by_axial, by_diagonal], costs } = self;
         by_axial.clear();
         by_diagonal.clear();
         by_axial.sets.push((Cost::ZERO, from));
-        let (mut open, mut left) = (cells.free, to.iter().fold(0, |all, cell| all | cell));
-        while let Some(cost) = by_axial.first().into_iter().chain(by_diagonal.first()).min() {
-            let reached = (by_axial.take(cost) | by_diagonal.take(cost)) & open;
+        let (mut open, mut left) = (cells.free, targets);
+        loop {
+            let firsts = [by_axial.first(), by_diagonal.first()];
+            let cost = firsts[0].min(firsts[1]);
+            if cost == Cost::MAX {
+                break;
+            }
+            let mut reached = 0;
+            if firsts[0] == cost {
+                reached |= by_axial.take();
+            }
+            if firsts[1] == cost {
+                reached |= by_diagonal.take();
+            }
+            reached &= open;
             if reached == 0 {
                 continue;
             }
             open &= !reached;
-            if reached & left != 0 {
-                for (cell, known) in to.iter().zip(&mut *costs) {
-                    if reached & cell != 0 {
-                        *known = FixedCost::new(Some(cost));
-                    }
+            let mut hits = reached & left;
+            if hits != 0 {
+                let cost = FixedCost::new(Some(cost));
+                while hits != 0 {
+                    costs[hits.trailing_zeros() as usize] = cost;
+                    hits &= hits - 1;
                 }
                 left &= !reached;
                 if left == 0 {
@@ -137,6 +160,10 @@ impl BitSearch {
                     by_diagonal.sets.push((cost + diagonal, next));
                 }
             }
+        }
+        while left != 0 {
+            costs[left.trailing_zeros() as usize] = FixedCost::NONE;
+            left &= left - 1;
         }
     }
 }

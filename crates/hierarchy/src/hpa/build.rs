@@ -7,13 +7,11 @@ use mediant_moves::{CostTable, FiniteK};
 
 use super::{
     DURING,
-    bits::{BitCells, BitSearch},
-    cluster_search::ClusterSearch,
-    fixed_cost::FixedCost,
-    join::Part,
-    level::{Bounds, Level, LevelEdit, NONE, Node, Shape},
+    join::Joins,
+    level::{Bounds, Level, LevelEdit, NONE, Shape},
+    lowest::LowestSearch,
 };
-use crate::window::{low_bits, rows_of};
+use crate::window::low_bits;
 
 /// An entrance at least this wide has a transition at either end, a narrower one has one in the middle
 /// (Section 3.1).
@@ -25,6 +23,8 @@ const CLUSTERS: usize = 64;
 /// Levels are made of these.
 pub(crate) struct Builder<'b> {
     pub(crate) grid: &'b Grid,
+    /// The map of the levels as they are.
+    pub(crate) before: &'b Grid,
     pub(crate) k: FiniteK,
     /// The costs of paths on an empty grid.
     pub(crate) costs: &'b CostTable,
@@ -73,76 +73,82 @@ impl Builder<'_> {
                 continue;
             }
             let mut edit = level.edit();
-            let nodes = self.rebuild_nodes(&mut edit, below, &dirty.nodes)?;
-            let mut costs = union(&dirty.costs, &nodes);
-            match below {
-                None => self.find_lowest_costs(&mut edit, &mut costs)?,
-                Some(below) => self.find_upper_costs(&mut edit, below, &mut costs)?,
-            }
-            dirty = Dirty { costs: union(&costs, &nodes), nodes };
+            dirty = self.rebuild_level(&mut edit, below, &dirty)?;
             rebuilt.push(Arc::new(edit.finish()));
         }
         Ok(rebuilt.into())
     }
 
-    /// Rebuilds the nodes of clusters. Returns the clusters whose nodes changed.
-    pub(crate) fn rebuild_nodes(
+    /// Rebuilds what is dirty on a level. Returns the clusters that changed.
+    fn rebuild_level(
         &self,
         level: &mut LevelEdit,
         below: Option<&Arc<Level>>,
-        clusters: &[u32],
-    ) -> Result<Vec<u32>, Interrupted> {
-        let (mut cells, mut changed) = (Vec::new(), Vec::new());
-        for (number, &id) in clusters.iter().enumerate() {
-            self.interrupt.check_every(CLUSTERS, number, DURING)?;
-            cells.clear();
+        dirty: &Dirty,
+    ) -> Result<Dirty, Interrupted> {
+        let (mut lowest, mut joins) = (LowestSearch::new(self), Joins::default());
+        let (mut cells, mut costs) = (Vec::new(), Vec::new());
+        let mut changed = Dirty { nodes: Vec::new(), costs: Vec::new() };
+        for id in union(&dirty.nodes, &dirty.costs) {
+            self.interrupt.check(DURING)?;
+            self.find_cells((level, id), below, &mut cells);
+            let has_other_nodes = level.has_other_nodes(id, &cells);
+            if !has_other_nodes && dirty.costs.binary_search(&id).is_err() {
+                continue;
+            }
+            let bounds = level.bounds(id, self.grid);
             match below {
-                None => lowest_cells(level, self.grid, id, &mut cells),
-                Some(below) => upper_cells(level, below, self.grid, id, &mut cells),
+                None => lowest.find(bounds, (level.nodes_of(id), level.costs_of(id)), &cells, &mut costs)?,
+                Some(below) => joins.find(below, self.grid, bounds, &mut costs),
             }
-            if level.set_nodes(id, &cells) {
-                changed.push(id);
+            if has_other_nodes {
+                level.set_nodes(id, &cells);
+                changed.nodes.push(id);
+            }
+            if level.set_costs(id, &costs) || has_other_nodes {
+                changed.costs.push(id);
             }
         }
-        for (number, id) in level.with_neighbors(&changed).into_iter().enumerate() {
-            self.interrupt.check_every(CLUSTERS, number, DURING)?;
-            level.join_across(id);
-        }
+        self.join_across(level, &changed.nodes)?;
         Ok(changed)
     }
 
-    /// Finds the costs between the nodes of clusters of the lowest level: Dijkstra's algorithm over the cells
-    /// of each. Keeps of the clusters those in which a cost changed.
-    fn find_lowest_costs(&self, level: &mut LevelEdit, clusters: &mut Vec<u32>) -> Result<(), Interrupted> {
-        let mut search = LowestSearch::new(self);
-        let mut costs = Vec::new();
-        keep_changed(clusters, |id| {
-            search.find(level.bounds(id, self.grid), level.nodes_of(id), &mut costs)?;
-            Ok(level.set_costs(id, &costs))
-        })
-    }
-
-    /// Finds the costs between the nodes of clusters of an upper level, from those within the clusters of the
-    /// level below. Keeps of the clusters those in which a cost changed.
-    fn find_upper_costs(
+    /// Makes the nodes of a level that has none, without their costs.
+    pub(crate) fn make_nodes(
         &self,
         level: &mut LevelEdit,
-        below: &Level,
-        clusters: &mut Vec<u32>,
+        below: Option<&Arc<Level>>,
     ) -> Result<(), Interrupted> {
-        let mut costs = Vec::new();
-        keep_changed(clusters, |id| {
-            self.interrupt.check(DURING)?;
-            // All nodes of a part lead out of it, and so do those of the whole.
-            let rows = below.within(level.bounds(id, self.grid)).map(|row| {
-                let parts = row.map(|child| Part::cluster(below, child, below.bounds(child, self.grid)));
-                parts.reduce(|left, right| left.joined(&right, below))
-            });
-            let whole = rows.flatten().reduce(|upper, lower| upper.joined(&lower, below));
-            costs.clear();
-            costs.extend(whole.iter().flat_map(Part::fixed_costs));
-            Ok(level.set_costs(id, &costs))
-        })
+        let (all, mut cells) = (Dirty::all(level).nodes, Vec::new());
+        for (number, &id) in all.iter().enumerate() {
+            self.interrupt.check_every(CLUSTERS, number, DURING)?;
+            self.find_cells((level, id), below, &mut cells);
+            level.set_nodes(id, &cells);
+        }
+        self.join_across(level, &all)
+    }
+
+    /// Writes to `cells` those of a cluster that are nodes, each with its node on the level below.
+    fn find_cells(
+        &self,
+        (level, id): (&Shape, u32),
+        below: Option<&Arc<Level>>,
+        cells: &mut Vec<(Vertex, u32)>,
+    ) {
+        cells.clear();
+        match below {
+            None => lowest_cells(level, self.grid, id, cells),
+            Some(below) => upper_cells(level, below, self.grid, id, cells),
+        }
+    }
+
+    /// Joins the nodes of clusters, which changed, with those of their neighbors.
+    fn join_across(&self, level: &mut LevelEdit, changed: &[u32]) -> Result<(), Interrupted> {
+        for (number, id) in level.with_neighbors(changed).into_iter().enumerate() {
+            self.interrupt.check_every(CLUSTERS, number, DURING)?;
+            level.join_across(id);
+        }
+        Ok(())
     }
 }
 
@@ -152,83 +158,6 @@ fn union(one: &[u32], other: &[u32]) -> Vec<u32> {
     both.sort_unstable();
     both.dedup();
     both
-}
-
-/// Keeps those clusters for which `find` says that something changed.
-fn keep_changed(
-    clusters: &mut Vec<u32>,
-    mut find: impl FnMut(u32) -> Result<bool, Interrupted>,
-) -> Result<(), Interrupted> {
-    let mut result = Ok(());
-    clusters.retain(|&id| {
-        result.is_ok()
-            && find(id).unwrap_or_else(|error| {
-                result = Err(error);
-                false
-            })
-    });
-    result
-}
-
-/// The searches within clusters of the lowest level, with their scratch memory.
-struct LowestSearch<'b> {
-    builder: &'b Builder<'b>,
-    small: BitSearch,
-    /// Made when first needed.
-    large: Option<ClusterSearch>,
-    cells: Vec<u32>,
-    sets: Vec<u128>,
-}
-
-impl<'b> LowestSearch<'b> {
-    fn new(builder: &'b Builder<'b>) -> Self {
-        let small = BitSearch::new(builder.k);
-        Self { builder, small, large: None, cells: Vec::new(), sets: Vec::new() }
-    }
-
-    /// Writes to `costs` those from each of the nodes of a cluster to each, row by row.
-    fn find(
-        &mut self,
-        bounds: Bounds,
-        nodes: &[Node],
-        costs: &mut Vec<FixedCost>,
-    ) -> Result<(), Interrupted> {
-        let Self { builder, small, large, cells, sets } = self;
-        let &Builder { grid, k, costs: empty, interrupt } = *builder;
-        let (window, count) = (bounds.window(grid), nodes.len());
-        cells.clear();
-        cells.extend(nodes.iter().map(|node| window.cell(node.at())));
-        // On an empty window there is nothing to search.
-        let of_bits = BitCells::new(&window).filter(|_| !window.is_free());
-        if of_bits.is_some() {
-            sets.clear();
-            sets.extend(cells.iter().map(|&cell| BitCells::cell(cell)));
-        }
-        costs.clear();
-        costs.resize(count * count, FixedCost::NONE);
-        for (from, &cell) in cells.iter().enumerate() {
-            interrupt.check(DURING)?;
-            costs[from * count + from] = FixedCost::ZERO;
-            let later = &mut costs[from * count..][from + 1..count];
-            if let Some(of_bits) = &of_bits {
-                small.find(of_bits, sets[from], &sets[from + 1..], later);
-                continue;
-            }
-            let search = large.get_or_insert_with(|| ClusterSearch::new(k));
-            let targets = &cells[from + 1..];
-            search.flood(empty, &window, cell, &rows_of(targets), &mut ());
-            for (cost, &target) in later.iter_mut().zip(targets) {
-                *cost = FixedCost::new(search.cost(target));
-            }
-        }
-        // Costs hold in both directions.
-        for from in 0..count {
-            for to in 0..from {
-                costs[from * count + to] = costs[to * count + from];
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Writes to `cells` those cells of a cluster of the lowest level at which transitions end, row by row. They
@@ -260,9 +189,10 @@ fn lowest_cells(level: &Shape, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u3
 fn upper_cells(level: &Shape, below: &Level, grid: &Grid, id: u32, cells: &mut Vec<(Vertex, u32)>) {
     let bounds = level.bounds(id, grid);
     for child in below.within(bounds).flatten() {
-        let first = below.first_node(child);
+        let (first, within) = (below.first_node(child), below.bounds(child, grid));
+        let outer = bounds.common_sides(within);
         for (node, number) in below.nodes_of(child).iter().zip(first..) {
-            if node.across().any(|other| !bounds.contains(below.node(other).at())) {
+            if below.sides(node, within) & outer != 0 {
                 cells.push((node.at(), number));
             }
         }

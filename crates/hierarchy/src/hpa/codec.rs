@@ -83,11 +83,10 @@ impl ClusterGraph {
         let mut costs = Vec::new();
         let mut levels: Vec<Arc<Level>> = Vec::with_capacity(graph.levels.len());
         for level in std::mem::take(&mut graph.levels) {
-            let all: Vec<u32> = (0..level.count()).collect();
             let mut edit = level.edit();
-            graph.builder(grid_graph.grid(), interrupt).rebuild_nodes(&mut edit, levels.last(), &all)?;
-            for (number, cluster) in all.into_iter().enumerate() {
-                interrupt.check_every(64, number, DURING)?;
+            graph.builder([grid_graph.grid(); 2], interrupt).make_nodes(&mut edit, levels.last())?;
+            for cluster in 0..edit.count() {
+                interrupt.check_every(64, cluster as usize, DURING)?;
                 let count = words.next()? as usize;
                 if count != edit.nodes_of(cluster).len() {
                     return Err(HierarchyError::Bytes("a cluster has another number of nodes"));

@@ -71,7 +71,7 @@ impl ClusterGraph {
         let mut graph = Self::without_nodes(grid_graph, clustering, interrupt)?;
         let levels = std::mem::take(&mut graph.levels);
         let all = Dirty::all(&levels[0]);
-        graph.levels = graph.builder(grid_graph.grid(), interrupt).rebuild(levels, all)?;
+        graph.levels = graph.builder([grid_graph.grid(); 2], interrupt).rebuild(levels, all)?;
         Ok(graph)
     }
 
@@ -93,9 +93,13 @@ impl ClusterGraph {
         })
     }
 
-    /// Levels of the index are made with this.
-    pub(crate) const fn builder<'b>(&'b self, grid: &'b Grid, interrupt: &'b Interrupt) -> Builder<'b> {
-        Builder { grid, k: self.k, costs: &self.costs, interrupt }
+    /// Levels of the index are made with this, from those of the first map to those of the second.
+    pub(crate) const fn builder<'b>(
+        &'b self,
+        [before, grid]: [&'b Grid; 2],
+        interrupt: &'b Interrupt,
+    ) -> Builder<'b> {
+        Builder { grid, before, k: self.k, costs: &self.costs, interrupt }
     }
 
     /// Repairs the index after a change. The index is then equal to a new one of the map after it, its
@@ -141,7 +145,7 @@ impl ClusterGraph {
         let [costs, nodes] = [0, 1].map(|reach| Squares { side, beside: reach, above: reach, below: reach });
         let touched = |squares| touched(change, squares, (interrupt, DURING));
         let dirty = Dirty { nodes: touched(nodes)?, costs: touched(costs)? };
-        self.builder(change.after(), interrupt).rebuild(levels, dirty)
+        self.builder([change.before(), change.after()], interrupt).rebuild(levels, dirty)
     }
 
     /// The identity of its grid graph: map, rules of motion and k.

@@ -113,14 +113,19 @@ impl Bounds {
         at.x >= self.left && at.x < self.right && at.y >= self.top && at.y < self.bottom
     }
 
-    /// The smallest bounds around two.
-    pub(crate) fn around(self, other: Self) -> Self {
-        Self {
-            left: self.left.min(other.left),
-            top: self.top.min(other.top),
-            right: self.right.max(other.right),
-            bottom: self.bottom.max(other.bottom),
-        }
+    /// The sides along which a vertex within lies.
+    fn sides(self, at: Vertex) -> u8 {
+        let along = |is: bool, side: u8| if is { side } else { 0 };
+        along(at.x == self.left, LEFT)
+            | along(at.x == self.right - 1, RIGHT)
+            | along(at.y == self.top, ABOVE)
+            | along(at.y == self.bottom - 1, BELOW)
+    }
+
+    /// The sides that bounds within these have in common with them.
+    pub(crate) fn common_sides(self, inner: Self) -> u8 {
+        self.sides(Vertex::new(inner.left, inner.top)) & (LEFT | ABOVE)
+            | self.sides(Vertex::new(inner.right - 1, inner.bottom - 1)) & (RIGHT | BELOW)
     }
 
     /// The window of these cells, which must be those of a cluster of the lowest level.
@@ -129,6 +134,12 @@ impl Bounds {
         Window::new(grid, left, top, (right - left) as u32, (bottom - top) as u32)
     }
 }
+
+/// The sides of a rectangle, as bits of a set.
+pub(crate) const LEFT: u8 = 1;
+pub(crate) const RIGHT: u8 = 2;
+pub(crate) const ABOVE: u8 = 4;
+pub(crate) const BELOW: u8 = 8;
 
 /// The blocks that are made between two questions of an interrupt.
 const PIECE: usize = 1 << 10;
@@ -330,6 +341,22 @@ impl Level {
         node(&self.nodes, id)
     }
 
+    /// The sides of a node's cluster, whose bounds these are, across which a step leads from it.
+    pub(crate) fn sides(&self, node: &Node, bounds: Bounds) -> u8 {
+        let along = bounds.sides(node.at());
+        // In corners, and along the border of the map, there are sides without a step.
+        if along.count_ones() as usize == node.across().count() {
+            return along;
+        }
+        let leads = |there: Vertex| match () {
+            () if there.x < bounds.left => LEFT,
+            () if there.x >= bounds.right => RIGHT,
+            () if there.y < bounds.top => ABOVE,
+            () => BELOW,
+        };
+        node.across().fold(0, |sides, other| sides | leads(self.node(other).at()))
+    }
+
     /// All numbers of nodes are below this one. It depends on the size of the map and the clustering alone.
     #[inline]
     pub(crate) fn node_numbers(&self) -> u32 {
@@ -384,23 +411,29 @@ impl LevelEdit {
         Some(self.cluster(cluster).first + index as u32)
     }
 
-    /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
-    /// Returns whether that changed them.
-    pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
+    /// The costs between the nodes of a cluster, row by row.
+    pub(crate) fn costs_of(&self, cluster: u32) -> &[FixedCost] {
+        &self.cluster(cluster).costs
+    }
+
+    /// Whether the nodes of a cluster are others than nodes at these cells, each with its node on the level
+    /// below.
+    pub(crate) fn has_other_nodes(&self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
         let is_new = |node: &Node, &(at, below): &(Vertex, u32)| node.at() != at || node.below != below;
         let old = self.nodes_of(cluster);
-        if old.len() == cells.len() && !old.iter().zip(cells).any(|(node, cell)| is_new(node, cell)) {
-            return false;
-        }
+        old.len() != cells.len() || old.iter().zip(cells).any(|(node, cell)| is_new(node, cell))
+    }
+
+    /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
+    pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) {
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let (first, count) = (self.cluster(cluster).first, old.len());
+        let &Cluster { first, count, .. } = self.cluster(cluster);
         let nodes = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
-        let unused = std::iter::repeat_n(Node::UNUSED, count.saturating_sub(cells.len()));
+        let unused = std::iter::repeat_n(Node::UNUSED, (count as usize).saturating_sub(cells.len()));
         for (id, node) in (first..).zip(nodes.chain(unused)) {
             *self.node_mut(id) = node;
         }
         self.cluster_mut(cluster).count = cells.len() as u32;
-        true
     }
 
     /// Joins the nodes of a cluster with the nodes beside them across its borders: the two ends of a

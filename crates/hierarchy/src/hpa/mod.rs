@@ -9,6 +9,7 @@ mod fixed_cost;
 mod graph;
 mod join;
 mod level;
+mod lowest;
 mod planner;
 mod search;
 mod straighten;
