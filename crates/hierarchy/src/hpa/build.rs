@@ -87,25 +87,25 @@ impl Builder<'_> {
         dirty: &Dirty,
     ) -> Result<Dirty, Interrupted> {
         let (mut lowest, mut joins) = (LowestSearch::new(self), Joins::default());
-        let (mut cells, mut costs) = (Vec::new(), Vec::new());
+        let mut cells = Vec::new();
         let mut changed = Dirty { nodes: Vec::new(), costs: Vec::new() };
         for id in union(&dirty.nodes, &dirty.costs) {
             self.interrupt.check(DURING)?;
             self.find_cells((level, id), below, &mut cells);
-            let has_other_nodes = level.has_other_nodes(id, &cells);
-            if !has_other_nodes && dirty.costs.binary_search(&id).is_err() {
-                continue;
+            let mut is_new = false;
+            if dirty.costs.binary_search(&id).is_ok() || !level.has_nodes_at(id, &cells) {
+                let bounds = level.bounds(id, self.grid);
+                let costs = match below {
+                    None => lowest.find(bounds, (level.nodes_of(id), level.costs_of(id)), &cells)?,
+                    Some(below) => joins.find(below, self.grid, bounds),
+                };
+                is_new = level.set_costs(id, costs);
             }
-            let bounds = level.bounds(id, self.grid);
-            match below {
-                None => lowest.find(bounds, (level.nodes_of(id), level.costs_of(id)), &cells, &mut costs)?,
-                Some(below) => joins.find(below, self.grid, bounds, &mut costs),
-            }
-            if has_other_nodes {
-                level.set_nodes(id, &cells);
+            let moved = level.set_nodes(id, &cells);
+            if moved {
                 changed.nodes.push(id);
             }
-            if level.set_costs(id, &costs) || has_other_nodes {
+            if moved || is_new {
                 changed.costs.push(id);
             }
         }
@@ -142,11 +142,11 @@ impl Builder<'_> {
         }
     }
 
-    /// Joins the nodes of clusters, which changed, with those of their neighbors.
-    fn join_across(&self, level: &mut LevelEdit, changed: &[u32]) -> Result<(), Interrupted> {
-        for (number, id) in level.with_neighbors(changed).into_iter().enumerate() {
+    /// Joins the nodes of clusters, which moved, with those of their neighbors.
+    fn join_across(&self, level: &mut LevelEdit, moved: &[u32]) -> Result<(), Interrupted> {
+        for (number, (id, sides)) in level.facing(moved).into_iter().enumerate() {
             self.interrupt.check_every(CLUSTERS, number, DURING)?;
-            level.join_across(id);
+            level.join_across(id, sides);
         }
         Ok(())
     }

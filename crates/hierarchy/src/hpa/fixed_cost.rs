@@ -31,4 +31,17 @@ impl FixedCost {
     pub(crate) const fn to_bits(self) -> u32 {
         self.0
     }
+
+    /// The number of its units.
+    #[inline]
+    pub(crate) fn to_f64(self) -> f64 {
+        f64::from(self.0)
+    }
+
+    /// That of so many units, a whole number; none for more than are counted.
+    #[inline]
+    pub(crate) fn from_f64(units: f64) -> Self {
+        // The low bits of 2⁵² + n are those of n.
+        Self((units.min(f64::from(u32::MAX)) + (1_u64 << 52) as f64).to_bits() as u32)
+    }
 }

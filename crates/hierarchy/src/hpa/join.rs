@@ -5,14 +5,14 @@
 //! one from it. So two clusters make a half, and two halves the cluster above. A search from each node would
 //! find the same costs, many times more slowly.
 //!
-//! The work is sums and minima of short rows of numbers. They are kept in fours, which a machine adds and
-//! compares at once, and no join allocates memory.
+//! The work is sums and minima of short rows of numbers. They are taken in eights, which a machine does a few
+//! at once, and no join allocates memory.
 
 use mediant_grid::Grid;
 
 use super::{
     fixed_cost::FixedCost,
-    level::{ABOVE, BELOW, Bounds, Cluster, LEFT, Level, RIGHT},
+    level::{ABOVE, BELOW, Bounds, LEFT, Level, RIGHT},
 };
 
 /// The costs to several nodes.
@@ -21,180 +21,192 @@ use super::{
 /// single instructions on every machine.
 type Lanes = [f64; LANES];
 
-const LANES: usize = 4;
+const LANES: usize = 8;
 
-/// There is no path. No sum with it is less, and none is rounded to less.
+/// There is no path. No sum with it is less.
 const NONE: f64 = u32::MAX as f64;
 
 /// The cost of the step across a border.
 const STEP: f64 = 65_536.0;
 
-/// One or several clusters of a level: those of their nodes from which a step leads out, and the costs
-/// between these within them.
-#[derive(Default)]
-struct Part {
+/// One or several clusters of a level: those of their nodes from which a step leads out.
+#[derive(Clone, Copy)]
+struct Part<'p> {
     /// Of each node, the sides of the part across which a step leads from it.
-    sides: Vec<u8>,
-    /// Row by row. Each row ends with its last four.
-    costs: Vec<Lanes>,
+    sides: &'p [u8],
+    /// The costs between the nodes within the part, row by row.
+    costs: &'p [FixedCost],
 }
 
-/// Joins of parts, with their memory.
+/// A part that was made of two.
+#[derive(Default)]
+struct Joined {
+    sides: Vec<u8>,
+    costs: Vec<FixedCost>,
+}
+
+/// Joins of clusters, with their memory.
 #[derive(Default)]
 pub(crate) struct Joins {
-    /// Parts that are no longer needed.
-    spare: Vec<Part>,
+    /// Of the nodes of two clusters.
+    sides: [Vec<u8>; 2],
+    halves: [Joined; 2],
+    whole: Joined,
+    scratch: Scratch,
+}
+
+/// The memory of a join.
+#[derive(Default)]
+struct Scratch {
     /// The steps from one part to the other: the numbers of the nodes at either end.
     border: Vec<(usize, usize)>,
     /// The numbers that the nodes of the joined part had.
     kept: Vec<usize>,
     /// The costs between the near ends of the steps across the border, within both parts, row by row.
     closed: Vec<Lanes>,
-    /// By fours of nodes, and then by steps: the costs from the near end of the step to the nodes, within one
-    /// part but for that step.
+    /// By eights of nodes, and then by steps: the costs from the near end of the step to the nodes, within
+    /// one part but for that step.
     direct: Vec<Lanes>,
     /// The same by any path.
     any: Vec<Lanes>,
     /// The costs from one node to the steps.
     to_border: Vec<f64>,
+    /// The costs from one node to each.
+    row: Vec<Lanes>,
 }
 
-impl Part {
-    fn count(&self) -> usize {
-        self.sides.len()
+impl<'p> Part<'p> {
+    fn row(self, node: usize) -> &'p [FixedCost] {
+        let count = self.sides.len();
+        &self.costs[node * count..][..count]
     }
 
-    fn row(&self, node: usize) -> &[f64] {
-        let width = self.count().div_ceil(LANES);
-        self.costs[node * width..][..width].as_flattened()
+    /// The nodes from which a step leads across one of these sides.
+    fn on(self, sides: u8) -> impl Iterator<Item = usize> {
+        (0..).zip(self.sides).filter_map(move |(node, of_node)| (of_node & sides != 0).then_some(node))
+    }
+}
+
+impl Joined {
+    fn part(&self) -> Part<'_> {
+        Part { sides: &self.sides, costs: &self.costs }
     }
 
-    /// The nodes from which a step leads across a side.
-    fn on(&self, side: u8) -> impl Iterator<Item = usize> {
-        (0..).zip(&self.sides).filter_map(move |(node, sides)| (sides & side != 0).then_some(node))
+    fn copy(&mut self, part: Part<'_>) {
+        self.sides.clear();
+        self.sides.extend_from_slice(part.sides);
+        self.costs.clear();
+        self.costs.extend_from_slice(part.costs);
     }
 }
 
 impl Joins {
-    /// Writes to `costs` those between the nodes of a cluster with these bounds, row by row.
-    pub(crate) fn find(&mut self, below: &Level, grid: &Grid, bounds: Bounds, costs: &mut Vec<FixedCost>) {
-        let mut whole: Option<Part> = None;
-        for row in below.within(bounds) {
-            let mut half: Option<Part> = None;
-            for child in row {
-                let part = self.cluster(below, child, below.bounds(child, grid));
-                half = Some(match half {
-                    Some(left) => self.joined([left, part], [RIGHT, LEFT]),
-                    None => part,
-                });
+    /// The costs between the nodes of a cluster with these bounds, row by row.
+    pub(crate) fn find(&mut self, below: &Level, grid: &Grid, bounds: Bounds) -> &[FixedCost] {
+        let Self { sides, halves, whole, scratch } = self;
+        let mut rows = 0;
+        for (half, row) in halves.iter_mut().zip(below.within(bounds)) {
+            let mut children = sides.iter_mut().zip(row).map(|(sides, child)| {
+                let bounds = below.bounds(child, grid);
+                sides.clear();
+                sides.extend(below.nodes_of(child).iter().map(|node| below.sides(node, bounds)));
+                Part { sides, costs: &below.cluster(child).costs }
+            });
+            match (children.next(), children.next()) {
+                (Some(left), Some(right)) => half.join([left, right], [RIGHT, LEFT], scratch),
+                (left, _) => left.into_iter().for_each(|left| half.copy(left)),
             }
-            whole = match (whole, half) {
-                (Some(upper), Some(lower)) => Some(self.joined([upper, lower], [BELOW, ABOVE])),
-                (upper, lower) => upper.or(lower),
-            };
+            rows += 1;
         }
-        costs.clear();
-        let Some(whole) = whole else { return };
-        // The low bits of 2⁵² + n are those of n.
-        let bits = |cost: f64| (cost.min(NONE) + (1_u64 << 52) as f64).to_bits();
-        for node in 0..whole.count() {
-            let row = &whole.row(node)[..whole.count()];
-            costs.extend(row.iter().map(|&cost| FixedCost::from_bits(bits(cost) as u32)));
+        if rows < 2 {
+            return &halves[0].costs;
         }
-        self.spare.push(whole);
+        whole.join([halves[0].part(), halves[1].part()], [BELOW, ABOVE], scratch);
+        &whole.costs
     }
+}
 
-    /// A cluster.
-    fn cluster(&mut self, level: &Level, cluster: u32, bounds: Bounds) -> Part {
-        let mut part = self.spare.pop().unwrap_or_default();
-        let Cluster { count, costs, .. } = level.cluster(cluster);
-        part.sides.clear();
-        part.sides.extend(level.nodes_of(cluster).iter().map(|node| level.sides(node, bounds)));
-        let count = *count as usize;
-        let width = count.div_ceil(LANES);
-        part.costs.clear();
-        part.costs.resize(count * width, [NONE; LANES]);
-        for node in 0..count {
-            let row = part.costs[node * width..][..width].as_flattened_mut();
-            for (cost, known) in row.iter_mut().zip(&costs[node * count..][..count]) {
-                *cost = f64::from(known.to_bits());
-            }
-        }
-        part
-    }
-
-    /// Two parts side by side as one, with those nodes from which a step leads out of both. `sides` are those
-    /// across which steps lead from each part to the other.
+impl Joined {
+    /// Makes this one of two parts side by side, with those nodes from which a step leads out of both.
+    /// `sides` are those across which steps lead from each part to the other.
     ///
     /// In both parts the nodes along a border come in its order, so that the ends of a step have the same
     /// place among them.
-    fn joined(&mut self, [one, other]: [Part; 2], sides: [u8; 2]) -> Part {
-        let mut joined = self.spare.pop().unwrap_or_default();
-        let Self { border, kept, closed, direct, any, to_border, .. } = self;
+    fn join(&mut self, parts: [Part<'_>; 2], sides: [u8; 2], scratch: &mut Scratch) {
+        let Scratch { border, kept, closed, direct, any, to_border, row } = scratch;
+        let [one, other] = parts;
         border.clear();
         border.extend(one.on(sides[0]).zip(other.on(sides[1])));
         kept.clear();
-        joined.sides.clear();
-        let mut of_one = 0;
-        for (part, side) in [(&one, sides[0]), (&other, sides[1])] {
-            // When the second part begins, the first is done.
-            of_one = kept.len();
-            for node in part.on(!side) {
+        self.sides.clear();
+        let [of_one, count] = [0, 1].map(|part| {
+            for node in parts[part].on(!sides[part]) {
                 kept.push(node);
-                joined.sides.push(part.sides[node] & !side);
+                self.sides.push(parts[part].sides[node] & !sides[part]);
             }
-        }
-        let (count, steps) = (kept.len(), border.len());
-        let width = count.div_ceil(LANES);
-        close([&one, &other], border, closed);
+            kept.len()
+        });
+        let (steps, width) = (border.len(), count.div_ceil(LANES));
+        close(parts, border, (closed, row));
         direct.clear();
         direct.resize(width * steps, [NONE; LANES]);
         for (node, &number) in kept.iter().enumerate() {
-            let lanes =
-                direct[node / LANES * steps..][..steps].iter_mut().map(|lanes| &mut lanes[node % LANES]);
+            let lanes = direct[node / LANES * steps..].iter_mut().map(|lanes| &mut lanes[node % LANES]);
             if node < of_one {
                 let row = one.row(number);
-                lanes.zip(&*border).for_each(|(cost, &(here, _))| *cost = row[here]);
+                lanes.zip(&*border).for_each(|(cost, &(here, _))| *cost = row[here].to_f64());
             } else {
                 let row = other.row(number);
-                lanes.zip(&*border).for_each(|(cost, &(_, there))| *cost = row[there] + STEP);
+                lanes.zip(&*border).for_each(|(cost, &(_, there))| *cost = row[there].to_f64() + STEP);
             }
         }
         any.clear();
-        for nodes in 0..width {
-            let direct = &direct[nodes * steps..][..steps];
-            let along = closed.chunks_exact(steps.div_ceil(LANES).max(1));
-            any.extend(along.map(|along| least([NONE; LANES], along.as_flattened(), direct)));
+        if steps > 0 {
+            for direct in direct.chunks_exact(steps) {
+                let rows = closed.chunks_exact(steps.div_ceil(LANES));
+                any.extend(rows.map(|along| least([NONE; LANES], along.as_flattened(), direct)));
+            }
         }
-        joined.costs.clear();
-        joined.costs.resize(count * width, [NONE; LANES]);
-        for (node, row) in joined.costs.chunks_exact_mut(width.max(1)).enumerate() {
+        self.costs.clear();
+        self.costs.resize(count * count, FixedCost::NONE);
+        row.clear();
+        row.resize(width, [NONE; LANES]);
+        let (of_direct, of_any) = (direct.chunks_exact(steps.max(1)), any.chunks_exact(steps.max(1)));
+        for (node, &number) in kept.iter().enumerate() {
+            let eights = node / LANES;
+            row[eights..].fill([NONE; LANES]);
             // The costs within one part.
-            let (part, end) = if node < of_one { (&one, of_one) } else { (&other, count) };
-            let within = part.row(kept[node]);
-            for (cost, &to) in row.as_flattened_mut()[..end].iter_mut().zip(&*kept).skip(node) {
-                *cost = within[to];
+            let (part, end) = if node < of_one { (one, of_one) } else { (other, count) };
+            let (within, ends) = (part.row(number), &kept[node..end]);
+            for (cost, &to) in row.as_flattened_mut()[node..].iter_mut().zip(ends) {
+                *cost = within[to].to_f64();
             }
-            to_border.clear();
-            to_border.extend(any[node / LANES * steps..][..steps].iter().map(|lanes| lanes[node % LANES]));
-            for (nodes, costs) in row.iter_mut().enumerate().skip(node / LANES) {
-                *costs = least(*costs, to_border, &direct[nodes * steps..][..steps]);
+            if let Some(any) = of_any.clone().nth(eights) {
+                to_border.clear();
+                to_border.extend(any.iter().map(|lanes| lanes[node % LANES]));
+                for (costs, direct) in row.iter_mut().zip(of_direct.clone()).skip(eights) {
+                    *costs = least(*costs, to_border, direct);
+                }
             }
+            let found = row.as_flattened()[node..count].iter().map(|&cost| FixedCost::from_f64(cost));
+            self.costs[node * (count + 1)..].iter_mut().zip(found).for_each(|(cost, found)| *cost = found);
         }
         // Costs hold in both directions.
-        let (costs, width) = (joined.costs.as_flattened_mut(), width * LANES);
-        for from in 1..count {
-            for to in 0..from {
-                costs[from * width + to] = costs[to * width + from];
-            }
+        for node in 1..count {
+            let (above, row) = self.costs.split_at_mut(node * count);
+            let column = above[node..].iter().step_by(count);
+            row.iter_mut().zip(column).for_each(|(cost, above)| *cost = *above);
         }
-        self.spare.extend([one, other]);
-        joined
     }
 }
 
 /// Writes to `closed` the costs between the near ends of the steps across a border, within both parts.
-fn close([one, other]: [&Part; 2], border: &[(usize, usize)], closed: &mut Vec<Lanes>) {
+/// `through` is scratch memory.
+fn close(
+    [one, other]: [Part<'_>; 2],
+    border: &[(usize, usize)],
+    (closed, through): (&mut Vec<Lanes>, &mut Vec<Lanes>),
+) {
     let steps = border.len();
     let width = steps.div_ceil(LANES);
     closed.clear();
@@ -202,16 +214,16 @@ fn close([one, other]: [&Part; 2], border: &[(usize, usize)], closed: &mut Vec<L
     for (&(here, there), row) in border.iter().zip(closed.chunks_exact_mut(width.max(1))) {
         let (within, beyond) = (one.row(here), other.row(there));
         for (cost, &(to, far)) in row.as_flattened_mut().iter_mut().zip(border) {
-            *cost = within[to].min(beyond[far] + 2.0 * STEP);
+            *cost = within[to].to_f64().min(beyond[far].to_f64() + 2.0 * STEP);
         }
     }
     for by in 0..steps {
-        for from in (0..steps).filter(|&from| from != by) {
-            let to_it = closed[from * width + by / LANES][by % LANES];
-            for lanes in 0..width {
-                let through = closed[by * width + lanes];
-                let costs = &mut closed[from * width + lanes];
-                *costs = least(*costs, &[to_it], &[through]);
+        through.clear();
+        through.extend_from_slice(&closed[by * width..][..width]);
+        for row in closed.chunks_exact_mut(width) {
+            let to_it = row[by / LANES][by % LANES];
+            for (costs, through) in row.iter_mut().zip(&*through) {
+                *costs = least(*costs, &[to_it], std::slice::from_ref(through));
             }
         }
     }
@@ -223,7 +235,7 @@ fn least(costs: Lanes, first: &[f64], rest: &[Lanes]) -> Lanes {
     first.iter().zip(rest).fold(costs, |costs, (first, rest)| {
         std::array::from_fn(|lane| {
             let found = first + rest[lane];
-            if found < costs[lane] { found } else { costs[lane] }
+            if costs[lane] < found { costs[lane] } else { found }
         })
     })
 }

@@ -141,6 +141,8 @@ pub(crate) const RIGHT: u8 = 2;
 pub(crate) const ABOVE: u8 = 4;
 pub(crate) const BELOW: u8 = 8;
 
+const ALL_SIDES: u8 = LEFT | RIGHT | ABOVE | BELOW;
+
 /// The blocks that are made between two questions of an interrupt.
 const PIECE: usize = 1 << 10;
 
@@ -179,30 +181,28 @@ impl Shape {
         at.y as u32 / self.side * self.columns + at.x as u32 / self.side
     }
 
-    /// Whether a vertex is in a cluster. Clusters at the right and lower edge count in full, also beyond the
-    /// map.
-    const fn is_in_cluster(&self, at: Vertex) -> bool {
-        at.x >= 0
-            && at.y >= 0
-            && at.x as u32 / self.side < self.columns
-            && at.y as u32 / self.side < self.rows
-    }
-
     /// The cells of a cluster that are on the map.
     pub(crate) fn bounds(&self, cluster: u32, grid: &Grid) -> Bounds {
-        let [left, top] = [cluster % self.columns, cluster / self.columns].map(|i| i * self.side);
-        let right = (left + self.side).min(grid.width()) as i32;
-        let bottom = (top + self.side).min(grid.height()) as i32;
-        Bounds { left: left as i32, top: top as i32, right, bottom }
+        let full = self.full_bounds(cluster);
+        let (width, height) = (grid.width() as i32, grid.height() as i32);
+        Bounds { right: full.right.min(width), bottom: full.bottom.min(height), ..full }
+    }
+
+    /// The cells of a cluster, which at the right and lower edge may lie beyond the map.
+    fn full_bounds(&self, cluster: u32) -> Bounds {
+        let [left, top] = [cluster % self.columns, cluster / self.columns].map(|i| (i * self.side) as i32);
+        Bounds { left, top, right: left + self.side as i32, bottom: top + self.side as i32 }
     }
 
     /// The neighbors of a cluster: left, right, above, below.
-    fn neighbors(&self, cluster: u32) -> impl Iterator<Item = u32> + use<> {
+    fn neighbors(&self, cluster: u32) -> [Option<u32>; 4] {
         let (x, y) = (cluster % self.columns, cluster / self.columns);
-        let beside = [(x > 0, cluster.wrapping_sub(1)), (x + 1 < self.columns, cluster + 1)];
-        let above_and_below =
-            [(y > 0, cluster.wrapping_sub(self.columns)), (y + 1 < self.rows, cluster + self.columns)];
-        beside.into_iter().chain(above_and_below).filter_map(|(exists, id)| exists.then_some(id))
+        [
+            (x > 0).then(|| cluster - 1),
+            (x + 1 < self.columns).then(|| cluster + 1),
+            (y > 0).then(|| cluster - self.columns),
+            (y + 1 < self.rows).then(|| cluster + self.columns),
+        ]
     }
 
     /// The clusters within these bounds, row by row.
@@ -220,7 +220,27 @@ impl Shape {
         if clusters.len() == self.count() as usize {
             return clusters.to_vec();
         }
-        ascending(clusters.iter().flat_map(|&id| self.neighbors(id).chain([id])))
+        ascending(clusters.iter().flat_map(|&id| self.neighbors(id).into_iter().flatten().chain([id])))
+    }
+
+    /// Clusters whose nodes moved, with all sides, and their neighbors, with the sides on which these lie, in
+    /// ascending order.
+    pub(crate) fn facing(&self, moved: &[u32]) -> Vec<(u32, u8)> {
+        let mut facing: Vec<_> = moved.iter().map(|&id| (id, ALL_SIDES)).collect();
+        if moved.len() < self.count() as usize {
+            facing.extend(moved.iter().flat_map(|&id| {
+                self.neighbors(id)
+                    .into_iter()
+                    .zip([RIGHT, LEFT, BELOW, ABOVE])
+                    .filter_map(|(id, side)| Some((id?, side)))
+            }));
+            facing.sort_unstable();
+        }
+        facing.dedup_by(|(id, side), (kept, sides)| {
+            *sides |= if id == kept { *side } else { 0 };
+            id == kept
+        });
+        facing
     }
 
     /// The clusters of this level that contain these of the level below, in ascending order.
@@ -345,7 +365,7 @@ impl Level {
     pub(crate) fn sides(&self, node: &Node, bounds: Bounds) -> u8 {
         let along = bounds.sides(node.at());
         // In corners, and along the border of the map, there are sides without a step.
-        if along.count_ones() as usize == node.across().count() {
+        if along.is_power_of_two() {
             return along;
         }
         let leads = |there: Vertex| match () {
@@ -404,9 +424,8 @@ impl LevelEdit {
         &mut block_mut(&mut self.nodes, id as usize / NODES)[id as usize % NODES]
     }
 
-    /// The number of the node at a vertex, if there is one.
-    fn node_at(&self, at: Vertex) -> Option<u32> {
-        let cluster = self.cluster_at(at);
+    /// The number of the node at a vertex of a cluster, if there is one.
+    fn node_in(&self, cluster: u32, at: Vertex) -> Option<u32> {
         let index = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
         Some(self.cluster(cluster).first + index as u32)
     }
@@ -416,38 +435,49 @@ impl LevelEdit {
         &self.cluster(cluster).costs
     }
 
-    /// Whether the nodes of a cluster are others than nodes at these cells, each with its node on the level
-    /// below.
-    pub(crate) fn has_other_nodes(&self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
-        let is_new = |node: &Node, &(at, below): &(Vertex, u32)| node.at() != at || node.below != below;
-        let old = self.nodes_of(cluster);
-        old.len() != cells.len() || old.iter().zip(cells).any(|(node, cell)| is_new(node, cell))
-    }
-
     /// Replaces the nodes of a cluster by nodes at these cells, each with its node on the level below.
-    pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) {
+    /// Returns whether there are nodes elsewhere than before.
+    pub(crate) fn set_nodes(&mut self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
         debug_assert!(cells.len() <= self.stride as usize, "cluster {cluster} has {} nodes", cells.len());
-        let &Cluster { first, count, .. } = self.cluster(cluster);
-        let nodes = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
-        let unused = std::iter::repeat_n(Node::UNUSED, (count as usize).saturating_sub(cells.len()));
-        for (id, node) in (first..).zip(nodes.chain(unused)) {
-            *self.node_mut(id) = node;
+        let (old, moved) = (self.nodes_of(cluster), !self.has_nodes_at(cluster, cells));
+        if !moved && old.iter().map(|node| node.below).eq(cells.iter().map(|&(_, below)| below)) {
+            return false;
         }
-        self.cluster_mut(cluster).count = cells.len() as u32;
+        let &Cluster { first, count, .. } = self.cluster(cluster);
+        let (first, end) = (first as usize, cells.len().max(count as usize));
+        let nodes = &mut block_mut(&mut self.nodes, first / NODES)[first % NODES..][..end];
+        if moved {
+            let new = cells.iter().map(|&(at, below)| Node::new(at, cluster, below));
+            let new = new.chain(std::iter::repeat(Node::UNUSED));
+            nodes.iter_mut().zip(new).for_each(|(node, new)| *node = new);
+            self.cluster_mut(cluster).count = cells.len() as u32;
+        } else {
+            nodes.iter_mut().zip(cells).for_each(|(node, &(_, below))| node.below = below);
+        }
+        moved
     }
 
-    /// Joins the nodes of a cluster with the nodes beside them across its borders: the two ends of a
-    /// transition, and in the corners of clusters also ends of different transitions, between which a step is
+    /// Whether the nodes of a cluster are at these cells.
+    pub(crate) fn has_nodes_at(&self, cluster: u32, cells: &[(Vertex, u32)]) -> bool {
+        self.nodes_of(cluster).iter().map(Node::at).eq(cells.iter().map(|&(at, _)| at))
+    }
+
+    /// Joins the nodes along sides of a cluster with the nodes beside them across its borders: the two ends of
+    /// a transition, and in the corners of clusters also ends of different transitions, between which a step is
     /// legal as well.
-    pub(crate) fn join_across(&mut self, cluster: u32) {
+    pub(crate) fn join_across(&mut self, cluster: u32, sides: u8) {
         let &Cluster { first, count, .. } = self.cluster(cluster);
+        let (bounds, neighbors) = (self.full_bounds(cluster), self.neighbors(cluster));
         for id in first..first + count {
             let node = node(self.nodes.words(), id);
-            let mut across = [(-1, 0), (1, 0), (0, -1), (0, 1)]
-                .into_iter()
-                .map(|d| node.at() + d.into())
-                .filter(|&other| self.is_in_cluster(other) && self.cluster_at(other) != cluster)
-                .filter_map(|other| self.node_at(other));
+            let (at, along) = (node.at(), bounds.sides(node.at()));
+            if along & sides == 0 {
+                continue;
+            }
+            let steps = [(LEFT, (-1, 0)), (RIGHT, (1, 0)), (ABOVE, (0, -1)), (BELOW, (0, 1))];
+            let mut across = steps.into_iter().zip(neighbors).filter_map(|((side, d), other)| {
+                if along & side == 0 { None } else { self.node_in(other?, at + d.into()) }
+            });
             let across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
             if across != node.across {
                 self.node_mut(id).across = across;

@@ -19,6 +19,9 @@ use super::{
 };
 use crate::window::{MAX_SIDE, Window, insert};
 
+/// Where so many nodes come to each changed cell, what it alters is found by searches from the cells.
+const MOST_CHANGED: u32 = 3;
+
 /// A set of nodes of a cluster: a bit for each. There are at most 128, every other cell along four sides.
 type Nodes = u128;
 
@@ -30,10 +33,14 @@ pub(crate) struct LowestSearch<'b> {
     large: Option<ClusterSearch>,
     /// The cells of the nodes, in their window.
     cells: Vec<u32>,
-    /// Of each node, the number that it had before the change, if any.
-    before: Vec<Option<usize>>,
+    /// The nodes that there were before the change, with the numbers that they had.
+    kept: Vec<(usize, usize)>,
+    /// The costs from each node to each, row by row.
+    costs: Vec<FixedCost>,
     /// Of each node, those to which the cost is to be found.
     unknown: Vec<Nodes>,
+    /// The numbers of them.
+    lacking: Vec<u32>,
     /// The costs that a search has found.
     found: Vec<FixedCost>,
 }
@@ -58,94 +65,102 @@ impl<'b> LowestSearch<'b> {
             small: BitSearch::new(builder.k),
             large: None,
             cells: Vec::new(),
-            before: Vec::new(),
+            kept: Vec::new(),
+            costs: Vec::new(),
             unknown: Vec::new(),
+            lacking: Vec::new(),
             found: Vec::new(),
         }
     }
 
-    /// Writes to `costs` those from each of the nodes at `new` cells of a cluster to each, row by row. `old`
-    /// are its nodes before the change, with their costs.
+    /// The costs from each of the nodes at `new` cells of a cluster to each, row by row. `old` are its nodes
+    /// before the change, with their costs.
     pub(crate) fn find(
         &mut self,
         bounds: Bounds,
-        old: (&[Node], &[FixedCost]),
+        (old, known): (&[Node], &[FixedCost]),
         new: &[(Vertex, u32)],
-        costs: &mut Vec<FixedCost>,
-    ) -> Result<(), Interrupted> {
+    ) -> Result<&[FixedCost], Interrupted> {
         let count = new.len();
         let after = Searched::new(bounds.window(self.builder.grid));
         self.cells.clear();
         self.cells.extend(new.iter().map(|&(at, _)| after.window.cell(at)));
-        costs.clear();
-        costs.resize(count * count, FixedCost::NONE);
-        (0..count).for_each(|node| costs[node * count + node] = FixedCost::ZERO);
-        self.keep(bounds, &after, old, new, costs)?;
-        // From the nodes first that lack most: few searches find all.
-        loop {
-            let most = (0..count).max_by_key(|&node| (self.unknown[node].count_ones(), count - node));
-            let Some((from, to)) = most.map(|from| (from, self.unknown[from])).filter(|&(_, to)| to != 0)
-            else {
-                return Ok(());
-            };
-            self.search(&after, self.cells[from], to)?;
-            self.unknown[from] = 0;
-            for node in each(to) {
-                self.unknown[node] &= !(1 << from);
-                // Costs hold in both directions.
-                costs[from * count + node] = self.found[node];
-                costs[node * count + from] = self.found[node];
-            }
-        }
-    }
-
-    /// Writes to `costs` those that were known before the change, and to `unknown` those that it may alter.
-    fn keep(
-        &mut self,
-        bounds: Bounds,
-        after: &Searched,
-        (old, known): (&[Node], &[FixedCost]),
-        new: &[(Vertex, u32)],
-        costs: &mut [FixedCost],
-    ) -> Result<(), Interrupted> {
-        let count = new.len();
-        // In both lists the nodes come row by row.
-        let mut rest = (0..old.len()).peekable();
-        self.before.clear();
-        self.before.extend(new.iter().map(|&(at, _)| {
-            let row_by_row = |at: Vertex| (at.y, at.x);
-            while rest.next_if(|&node| row_by_row(old[node].at()) < row_by_row(at)).is_some() {}
-            rest.next_if(|&node| old[node].at() == at)
-        }));
+        self.costs.clear();
+        self.costs.resize(count * count, FixedCost::NONE);
+        (0..count).for_each(|node| self.costs[node * count + node] = FixedCost::ZERO);
+        let kept = self.keep((old, known), new);
         let all = (0..count).fold(0, |nodes, node| nodes | 1 << node);
-        let mut kept =
-            (0..count).filter(|&node| self.before[node].is_some()).fold(0, |all, node| all | 1 << node);
-        let before = Searched::new(bounds.window(self.builder.before));
-        let free = [&before, after].map(|cluster| &cluster.window.free[..after.window.height as usize]);
-        let rows = free[0].iter().zip(free[1]).map(|(before, after)| before ^ after);
-        let changed: u32 = rows.clone().map(u64::count_ones).sum();
-        if changed as usize * 3 > count {
-            kept = 0;
-        }
         self.unknown.clear();
         self.unknown.extend((0..count).map(|node| {
             let unknown = if kept >> node & 1 == 0 { all } else { all & !kept };
             unknown & !(1 << node)
         }));
-        for from in each(kept) {
-            for to in each(kept) {
-                let [from_before, to_before] = [from, to].map(|node| self.before[node].unwrap_or_default());
-                costs[from * count + to] = known[from_before * old.len() + to_before];
+        if kept != 0 {
+            self.suspect_changed(bounds, &after, (kept, all))?;
+        }
+        self.lacking.clear();
+        self.lacking.extend(self.unknown.iter().map(|unknown| unknown.count_ones()));
+        // From the nodes first that lack most: few searches find all.
+        while let Some((from, _)) = (0..)
+            .zip(&self.lacking)
+            .filter(|&(_, &lacking)| lacking > 0)
+            .min_by_key(|&(_, &lacking)| !lacking)
+        {
+            let to = self.unknown[from];
+            self.search(&after, self.cells[from], to)?;
+            self.lacking[from] = 0;
+            for node in each(to) {
+                self.unknown[node] &= !(1 << from);
+                self.lacking[node] -= 1;
+                // Costs hold in both directions.
+                self.costs[from * count + node] = self.found[node];
+                self.costs[node * count + from] = self.found[node];
             }
         }
-        if kept.count_ones() < 2 || changed == 0 {
+        Ok(&self.costs)
+    }
+
+    /// Takes over what was known before the change. Returns the nodes that there were.
+    fn keep(&mut self, (old, known): (&[Node], &[FixedCost]), new: &[(Vertex, u32)]) -> Nodes {
+        // In both lists the nodes come row by row.
+        let row_by_row = |at: Vertex| (at.y, at.x);
+        let mut rest = (0..old.len()).peekable();
+        self.kept.clear();
+        self.kept.extend((0..).zip(new).filter_map(|(node, &(at, _))| {
+            while rest.next_if(|&before| row_by_row(old[before].at()) < row_by_row(at)).is_some() {}
+            Some((node, rest.next_if(|&before| old[before].at() == at)?))
+        }));
+        for &(from, from_before) in &self.kept {
+            let row = &mut self.costs[from * new.len()..][..new.len()];
+            let known = &known[from_before * old.len()..][..old.len()];
+            self.kept.iter().for_each(|&(to, to_before)| row[to] = known[to_before]);
+        }
+        self.kept.iter().fold(0, |nodes, &(node, _)| nodes | 1 << node)
+    }
+
+    /// Adds to `unknown` the pairs of kept nodes between which the change may alter the cost.
+    fn suspect_changed(
+        &mut self,
+        bounds: Bounds,
+        after: &Searched,
+        (kept, all): (Nodes, Nodes),
+    ) -> Result<(), Interrupted> {
+        let before = Searched::new(bounds.window(self.builder.before));
+        let changed = |y: usize| before.window.free[y] ^ after.window.free[y];
+        let rows = 0..after.window.height as usize;
+        let count: u32 = rows.clone().map(|y| changed(y).count_ones()).sum();
+        if count * MOST_CHANGED > self.cells.len() as u32 {
+            for node in each(kept) {
+                self.unknown[node] = all & !(1 << node);
+            }
             return Ok(());
         }
-        for (y, row) in (0..).zip(rows) {
-            for x in each(row.into()) {
-                let is_blocked = free[0][y as usize] >> x & 1 == 1;
-                self.search(if is_blocked { &before } else { after }, MAX_SIDE * y + x as u32, kept)?;
-                self.suspect(kept, is_blocked, costs);
+        for y in rows {
+            for x in each(changed(y).into()) {
+                let is_blocked = before.window.free[y] >> x & 1 == 1;
+                let cell = MAX_SIDE * y as u32 + x as u32;
+                self.search(if is_blocked { &before } else { after }, cell, kept)?;
+                self.suspect(kept, is_blocked);
             }
         }
         Ok(())
@@ -153,8 +168,8 @@ impl<'b> LowestSearch<'b> {
 
     /// Adds to `unknown` the pairs between which a shortest path may lead by a cell, from which
     /// the last search went.
-    fn suspect(&mut self, kept: Nodes, is_blocked: bool, costs: &[FixedCost]) {
-        let Self { unknown, found, .. } = self;
+    fn suspect(&mut self, kept: Nodes, is_blocked: bool) {
+        let Self { unknown, found, costs, .. } = self;
         // A detour of 2 − √2 and three roundings, in the units of costs. Four neighbors have neither.
         let detour =
             if self.builder.k == mediant_moves::FiniteK::N4 { u64::from(is_blocked) } else { 38_392 + 3 };
