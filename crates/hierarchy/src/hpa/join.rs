@@ -67,12 +67,12 @@ struct Scratch {
     /// By eights of nodes, and then by steps: the costs from the near end of the step to the nodes, within
     /// one part but for that step.
     direct: Vec<Lanes>,
-    /// The same by any path.
-    any: Vec<Lanes>,
-    /// The costs from one node to the steps.
-    to_border: Vec<f64>,
-    /// The costs from one node to each.
-    row: Vec<Lanes>,
+    /// The same by any path, by nodes and then by steps.
+    any: Vec<f64>,
+    /// The costs from one step to each.
+    through: Vec<Lanes>,
+    /// The numbers that the nodes of the joined part had in each of the two.
+    numbers: [Vec<[usize; LANES]>; 2],
 }
 
 impl<'p> Part<'p> {
@@ -133,7 +133,7 @@ impl Joined {
     /// In both parts the nodes along a border come in its order, so that the ends of a step have the same
     /// place among them.
     fn join(&mut self, parts: [Part<'_>; 2], sides: [u8; 2], scratch: &mut Scratch) {
-        let Scratch { border, kept, closed, direct, any, to_border, row } = scratch;
+        let Scratch { border, kept, closed, direct, any, through, numbers } = scratch;
         let [one, other] = parts;
         border.clear();
         border.extend(one.on(sides[0]).zip(other.on(sides[1])));
@@ -147,9 +147,10 @@ impl Joined {
             kept.len()
         });
         let (steps, width) = (border.len(), count.div_ceil(LANES));
-        close(parts, border, (closed, row));
+        close(parts, border, (closed, through));
         direct.clear();
-        direct.resize(width * steps, [NONE; LANES]);
+        // Without a border there is something to go along with the numbers of nodes.
+        direct.resize(width * steps.max(1), [NONE; LANES]);
         for (node, &number) in kept.iter().enumerate() {
             let lanes = direct[node / LANES * steps..].iter_mut().map(|lanes| &mut lanes[node % LANES]);
             if node < of_one {
@@ -161,35 +162,36 @@ impl Joined {
             }
         }
         any.clear();
-        if steps > 0 {
-            for direct in direct.chunks_exact(steps) {
-                let rows = closed.chunks_exact(steps.div_ceil(LANES));
-                any.extend(rows.map(|along| least([NONE; LANES], along.as_flattened(), direct)));
+        any.resize(width * LANES * steps, NONE);
+        let of_eights = any.chunks_exact_mut((LANES * steps).max(1));
+        for (direct, any) in direct.chunks_exact(steps.max(1)).zip(of_eights) {
+            for (step, along) in closed.chunks_exact(steps.div_ceil(LANES)).enumerate() {
+                let costs = least([NONE; LANES], along.as_flattened(), direct);
+                (0..LANES).for_each(|lane| any[lane * steps + step] = costs[lane]);
             }
         }
+        // The numbers that nodes had in one part, and nothing for those of the other.
+        numbers.iter_mut().zip([0..of_one, of_one..count]).for_each(|(numbers, part)| {
+            numbers.clear();
+            numbers.resize(width, [usize::MAX; LANES]);
+            numbers.as_flattened_mut()[part.clone()].copy_from_slice(&kept[part]);
+        });
         self.costs.clear();
         self.costs.resize(count * count, FixedCost::NONE);
-        row.clear();
-        row.resize(width, [NONE; LANES]);
-        let (of_direct, of_any) = (direct.chunks_exact(steps.max(1)), any.chunks_exact(steps.max(1)));
         for (node, &number) in kept.iter().enumerate() {
-            let eights = node / LANES;
-            row[eights..].fill([NONE; LANES]);
-            // The costs within one part.
-            let (part, end) = if node < of_one { (one, of_one) } else { (other, count) };
-            let (within, ends) = (part.row(number), &kept[node..end]);
-            for (cost, &to) in row.as_flattened_mut()[node..].iter_mut().zip(ends) {
-                *cost = within[to].to_f64();
-            }
-            if let Some(any) = of_any.clone().nth(eights) {
-                to_border.clear();
-                to_border.extend(any.iter().map(|lanes| lanes[node % LANES]));
-                for (costs, direct) in row.iter_mut().zip(of_direct.clone()).skip(eights) {
-                    *costs = least(*costs, to_border, direct);
+            let (part, numbers) = if node < of_one { (one, &numbers[0]) } else { (other, &numbers[1]) };
+            let (within, any) = (part.row(number), &any[node * steps..][..steps]);
+            let (eights, row) = (node / LANES, &mut self.costs[node * count..][..count]);
+            let to = numbers[eights..].iter().zip(direct[eights * steps..].chunks(steps.max(1)));
+            for (costs, (numbers, direct)) in row[eights * LANES..].chunks_mut(LANES).zip(to) {
+                let known = numbers.map(|number| within.get(number).map_or(NONE, |cost| cost.to_f64()));
+                let found = least(known, any, direct).map(FixedCost::from_f64);
+                if let Some(costs) = costs.first_chunk_mut() {
+                    *costs = found;
+                } else {
+                    costs.iter_mut().zip(found).for_each(|(cost, found)| *cost = found);
                 }
             }
-            let found = row.as_flattened()[node..count].iter().map(|&cost| FixedCost::from_f64(cost));
-            self.costs[node * (count + 1)..].iter_mut().zip(found).for_each(|(cost, found)| *cost = found);
         }
         // Costs hold in both directions.
         for node in 1..count {
