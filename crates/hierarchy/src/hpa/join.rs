@@ -69,8 +69,6 @@ struct Scratch {
     direct: Vec<Lanes>,
     /// The same by any path, by nodes and then by steps.
     any: Vec<f64>,
-    /// The costs from one step to each.
-    through: Vec<Lanes>,
     /// The numbers that the nodes of the joined part had in each of the two.
     numbers: [Vec<[usize; LANES]>; 2],
 }
@@ -133,7 +131,7 @@ impl Joined {
     /// In both parts the nodes along a border come in its order, so that the ends of a step have the same
     /// place among them.
     fn join(&mut self, parts: [Part<'_>; 2], sides: [u8; 2], scratch: &mut Scratch) {
-        let Scratch { border, kept, closed, direct, any, through, numbers } = scratch;
+        let Scratch { border, kept, closed, direct, any, numbers } = scratch;
         let [one, other] = parts;
         border.clear();
         border.extend(one.on(sides[0]).zip(other.on(sides[1])));
@@ -147,10 +145,9 @@ impl Joined {
             kept.len()
         });
         let (steps, width) = (border.len(), count.div_ceil(LANES));
-        close(parts, border, (closed, through));
+        close(parts, border, closed);
         direct.clear();
-        // Without a border there is something to go along with the numbers of nodes.
-        direct.resize(width * steps.max(1), [NONE; LANES]);
+        direct.resize(width * steps, [NONE; LANES]);
         for (node, &number) in kept.iter().enumerate() {
             let lanes = direct[node / LANES * steps..].iter_mut().map(|lanes| &mut lanes[node % LANES]);
             if node < of_one {
@@ -163,10 +160,12 @@ impl Joined {
         }
         any.clear();
         any.resize(width * LANES * steps, NONE);
-        let of_eights = any.chunks_exact_mut((LANES * steps).max(1));
-        for (direct, any) in direct.chunks_exact(steps.max(1)).zip(of_eights) {
-            for (step, along) in closed.chunks_exact(steps.div_ceil(LANES)).enumerate() {
-                let costs = least([NONE; LANES], along.as_flattened(), direct);
+        for eights in 0..width {
+            let direct = &direct[eights * steps..][..steps];
+            let any = &mut any[eights * LANES * steps..][..LANES * steps];
+            for step in 0..steps {
+                let along = closed[step * steps.div_ceil(LANES)..].as_flattened();
+                let costs = least([NONE; LANES], along, direct);
                 (0..LANES).for_each(|lane| any[lane * steps + step] = costs[lane]);
             }
         }
@@ -181,10 +180,11 @@ impl Joined {
         for (node, &number) in kept.iter().enumerate() {
             let (part, numbers) = if node < of_one { (one, &numbers[0]) } else { (other, &numbers[1]) };
             let (within, any) = (part.row(number), &any[node * steps..][..steps]);
-            let (eights, row) = (node / LANES, &mut self.costs[node * count..][..count]);
-            let to = numbers[eights..].iter().zip(direct[eights * steps..].chunks(steps.max(1)));
-            for (costs, (numbers, direct)) in row[eights * LANES..].chunks_mut(LANES).zip(to) {
+            let row = &mut self.costs[node * count..][..count];
+            let eights = numbers.iter().zip(row.chunks_mut(LANES)).enumerate().skip(node / LANES);
+            for (eights, (numbers, costs)) in eights {
                 let known = numbers.map(|number| within.get(number).map_or(NONE, |cost| cost.to_f64()));
+                let direct = &direct[eights * steps..][..steps];
                 let found = least(known, any, direct).map(FixedCost::from_f64);
                 if let Some(costs) = costs.first_chunk_mut() {
                     *costs = found;
@@ -196,36 +196,35 @@ impl Joined {
         // Costs hold in both directions.
         for node in 1..count {
             let (above, row) = self.costs.split_at_mut(node * count);
-            let column = above[node..].iter().step_by(count);
-            row.iter_mut().zip(column).for_each(|(cost, above)| *cost = *above);
+            let mut place = node;
+            for cost in &mut row[..node] {
+                *cost = above[place];
+                place += count;
+            }
         }
     }
 }
 
 /// Writes to `closed` the costs between the near ends of the steps across a border, within both parts.
-/// `through` is scratch memory.
-fn close(
-    [one, other]: [Part<'_>; 2],
-    border: &[(usize, usize)],
-    (closed, through): (&mut Vec<Lanes>, &mut Vec<Lanes>),
-) {
+fn close([one, other]: [Part<'_>; 2], border: &[(usize, usize)], closed: &mut Vec<Lanes>) {
     let steps = border.len();
     let width = steps.div_ceil(LANES);
     closed.clear();
     closed.resize(steps * width, [NONE; LANES]);
-    for (&(here, there), row) in border.iter().zip(closed.chunks_exact_mut(width.max(1))) {
+    for (step, &(here, there)) in border.iter().enumerate() {
         let (within, beyond) = (one.row(here), other.row(there));
-        for (cost, &(to, far)) in row.as_flattened_mut().iter_mut().zip(border) {
+        let row = closed[step * width..][..width].as_flattened_mut();
+        for (cost, &(to, far)) in row.iter_mut().zip(border) {
             *cost = within[to].to_f64().min(beyond[far].to_f64() + 2.0 * STEP);
         }
     }
     for by in 0..steps {
-        through.clear();
-        through.extend_from_slice(&closed[by * width..][..width]);
-        for row in closed.chunks_exact_mut(width) {
-            let to_it = row[by / LANES][by % LANES];
-            for (costs, through) in row.iter_mut().zip(&*through) {
-                *costs = least(*costs, &[to_it], std::slice::from_ref(through));
+        for from in 0..steps {
+            let to_it = closed[from * width + by / LANES][by % LANES];
+            for eights in 0..width {
+                let through = closed[by * width + eights];
+                let costs = &mut closed[from * width + eights];
+                *costs = least(*costs, &[to_it], &[through]);
             }
         }
     }

@@ -424,12 +424,6 @@ impl LevelEdit {
         &mut block_mut(&mut self.nodes, id as usize / NODES)[id as usize % NODES]
     }
 
-    /// The number of the node at a vertex of a cluster, if there is one.
-    fn node_in(&self, cluster: u32, at: Vertex) -> Option<u32> {
-        let index = self.nodes_of(cluster).iter().position(|node| node.at() == at)?;
-        Some(self.cluster(cluster).first + index as u32)
-    }
-
     /// The costs between the nodes of a cluster, row by row.
     pub(crate) fn costs_of(&self, cluster: u32) -> &[FixedCost] {
         &self.cluster(cluster).costs
@@ -468,15 +462,20 @@ impl LevelEdit {
     pub(crate) fn join_across(&mut self, cluster: u32, sides: u8) {
         let &Cluster { first, count, .. } = self.cluster(cluster);
         let (bounds, neighbors) = (self.full_bounds(cluster), self.neighbors(cluster));
+        let steps = [(LEFT, (-1, 0)), (RIGHT, (1, 0)), (ABOVE, (0, -1)), (BELOW, (0, 1))];
+        // Along a border the nodes on either side come in the same order.
+        let mut passed = [0; 4];
         for id in first..first + count {
             let node = node(self.nodes.words(), id);
             let (at, along) = (node.at(), bounds.sides(node.at()));
             if along & sides == 0 {
                 continue;
             }
-            let steps = [(LEFT, (-1, 0)), (RIGHT, (1, 0)), (ABOVE, (0, -1)), (BELOW, (0, 1))];
-            let mut across = steps.into_iter().zip(neighbors).filter_map(|((side, d), other)| {
-                if along & side == 0 { None } else { self.node_in(other?, at + d.into()) }
+            let mut across = (0..4).filter(|&side| along & steps[side].0 != 0).filter_map(|side| {
+                let (other, there) = (neighbors[side]?, at + steps[side].1.into());
+                let nodes = self.nodes_of(other).iter().skip(passed[side]);
+                passed[side] += nodes.map(Node::at).position(|at| at == there)?;
+                Some(self.cluster(other).first + passed[side] as u32)
             });
             let across = [across.next(), across.next()].map(|id| id.unwrap_or(NONE));
             if across != node.across {

@@ -6,9 +6,9 @@ use crate::common::{
     Setting, any_clustering, any_grid_graph, ask, chpa, clusters, grid_graph, hpa, k, map, random_queries,
     segments,
 };
-use mediant_grid::{AsciiMap, Change, CornerRule, Grid, Rectangle};
+use mediant_grid::{AsciiMap, Change, CornerRule, Grid, Interrupt, Rectangle};
 use mediant_hierarchy::Clustering;
-use mediant_oracle::{Rng, describe, on_all_cores, seeds};
+use mediant_oracle::{Rng, caves, describe, maze, noise, on_all_cores, rooms, seeds};
 
 /// How the cells of a rectangle change.
 #[derive(Clone, Copy, Debug)]
@@ -164,4 +164,61 @@ fn crowded_clusters_are_repaired() {
         check_flip(first, levels, 2, 2);
         check_flip(second, levels, 3, 1);
     }
+}
+
+/// Flips scattered cells of a map again and again, few and many at once, and repairs its index. Returns how
+/// often it changed.
+fn check_scattered(seed: u64) -> usize {
+    let mut rng = Rng::new(seed ^ 0x5CA7);
+    let (width, height) = (25 + rng.below(50), 25 + rng.below(50));
+    let made = match seed % 5 {
+        0 => noise(&mut rng, width, height, 20),
+        1 => rooms(&mut rng, width, height),
+        2 => maze(&mut rng, width, height),
+        3 => caves(&mut rng, width, height),
+        // Nearly all is free.
+        _ => noise(&mut rng, width, height, 2),
+    };
+    let mut grid = Arc::new(made);
+    let first = any_grid_graph(&mut rng, &grid);
+    let (k, rule) = (first.k(), first.rule());
+    // Small clusters are searched in another way than large ones.
+    let clustering = Clustering { side: 6 + rng.below(8), levels: 1 + rng.below(3) };
+    let mut repaired = clusters(&first, clustering);
+    let mut differing = 0;
+    for turn in 0..6 {
+        let most = [1, 1, 3, 12, 40][rng.below(5) as usize];
+        let cells: Vec<_> = (0..1 + rng.below(most))
+            .map(|_| {
+                let (x, y) = (rng.below(width), rng.below(height));
+                (x, y, grid.is_free(x as i32, y as i32))
+            })
+            .collect();
+        let change = Change::new(Arc::clone(&grid)).edit_cells(cells.iter().copied());
+        grid = Arc::clone(change.after());
+        let before = repaired.clone();
+        if rng.chance(50) {
+            repaired.repair(&change).expect("its map");
+        } else {
+            repaired = repaired.repaired(&change, &Interrupt::NEVER).expect("its map");
+        }
+        let grid_graph = grid_graph(&grid, k, rule);
+        let new = clusters(&grid_graph, clustering);
+        let case = || {
+            let map = describe(&grid, grid_graph.rules(), (-1, -1).into(), (-1, -1).into(), seed);
+            format!("k = {k}, {clustering:?}, change {turn}: {cells:?}; {map}")
+        };
+        assert!(repaired == new, "{}", case());
+        assert_eq!(repaired.to_bytes(), new.to_bytes(), "{}", case());
+        differing += usize::from(before != repaired);
+    }
+    differing
+}
+
+#[test]
+fn scattered_cells_are_repaired() {
+    let checked = on_all_cores(seeds(250), check_scattered);
+    let (maps, differing) = (seeds(250).end as usize, checked.iter().sum::<usize>());
+    assert_eq!(checked.len(), maps);
+    assert!(differing > 3 * maps, "only {differing} repairs of {maps} maps changed anything");
 }
