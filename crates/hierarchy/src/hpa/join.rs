@@ -146,7 +146,7 @@ impl Joined {
         });
         let (steps, width) = (border.len(), count.div_ceil(LANES));
         close(parts, border, closed);
-        direct.clear();
+        // Here and below all is written anew but what fills up eights, which nothing reads.
         direct.resize(width * steps, [NONE; LANES]);
         for (node, &number) in kept.iter().enumerate() {
             let lanes = direct[node / LANES * steps..].iter_mut().map(|lanes| &mut lanes[node % LANES]);
@@ -158,7 +158,6 @@ impl Joined {
                 lanes.zip(&*border).for_each(|(cost, &(_, there))| *cost = row[there].to_f64() + STEP);
             }
         }
-        any.clear();
         any.resize(width * LANES * steps, NONE);
         for eights in 0..width {
             let direct = &direct[eights * steps..][..steps];
@@ -175,7 +174,6 @@ impl Joined {
             numbers.resize(width, [usize::MAX; LANES]);
             numbers.as_flattened_mut()[part.clone()].copy_from_slice(&kept[part]);
         });
-        self.costs.clear();
         self.costs.resize(count * count, FixedCost::NONE);
         for (node, &number) in kept.iter().enumerate() {
             let (part, numbers) = if node < of_one { (one, &numbers[0]) } else { (other, &numbers[1]) };
@@ -209,7 +207,6 @@ impl Joined {
 fn close([one, other]: [Part<'_>; 2], border: &[(usize, usize)], closed: &mut Vec<Lanes>) {
     let steps = border.len();
     let width = steps.div_ceil(LANES);
-    closed.clear();
     closed.resize(steps * width, [NONE; LANES]);
     for (step, &(here, there)) in border.iter().enumerate() {
         let (within, beyond) = (one.row(here), other.row(there));
