@@ -8,6 +8,7 @@
 //! detour. Only between these nodes, and from nodes that are new, is searched again.
 
 use mediant_grid::{Interrupted, Vertex};
+use mediant_moves::FiniteK;
 
 use super::{
     DURING,
@@ -166,13 +167,13 @@ impl<'b> LowestSearch<'b> {
         Ok(())
     }
 
-    /// Adds to `unknown` the pairs between which a shortest path may lead by a cell, from which
-    /// the last search went.
+    /// Adds to `unknown` the pairs of kept nodes between which a shortest path may lead past the cell that
+    /// the last search began at.
     fn suspect(&mut self, kept: Nodes, is_blocked: bool) {
-        let Self { unknown, found, costs, .. } = self;
-        // A detour of 2 − √2 and three roundings, in the units of costs. Four neighbors have neither.
-        let detour =
-            if self.builder.k == mediant_moves::FiniteK::N4 { u64::from(is_blocked) } else { 38_392 + 3 };
+        let Self { builder, unknown, found, costs, .. } = self;
+        // In units of costs: 2 − √2, and what three costs are rounded by. Four neighbors have neither, and
+        // there a cell that opens only matters where the path through it is shorter.
+        let detour = if builder.k == FiniteK::N4 { u64::from(is_blocked) } else { 38_392 + 3 };
         let count = unknown.len();
         let reached =
             each(kept).filter(|&node| found[node] != FixedCost::NONE).fold(0, |all, node| all | 1 << node);
