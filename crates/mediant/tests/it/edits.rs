@@ -1,11 +1,11 @@
 //! Maps that change: whatever was prepared follows a chain of edits, and answers as if it were made anew.
 
 use mediant::{
-    Answer, Change, Ends, Engine, Index, K, Map, Motion, Origin, PlacementKind, Planner, Rectangle, Rules,
-    Setup, Space,
+    Answer, Change, Ends, Engine, Guarantee, Index, K, Map, Motion, Origin, PlacementKind, Planner,
+    Rectangle, Rules, Setup, Space,
 };
 use mediant_grid::{Change as GridChange, Grid};
-use mediant_oracle::{Rng, caves, on_all_cores, random_change, random_vertex, seeds, suite_grid};
+use mediant_oracle::{Explicit, Rng, caves, on_all_cores, random_change, random_vertex, seeds, suite_grid};
 
 use super::map;
 
@@ -67,9 +67,32 @@ fn check_same(one: &mut Planner, new: &Index, queries: &[Ends], message: &str) {
     }
 }
 
+/// Checks that a planner that followed edits finds shortest paths, by an oracle that knows the map alone; returns
+/// the number of queries.
+fn check_shortest(planner: &mut Planner, space: &Space, queries: &[Ends], message: &str) -> usize {
+    let (grid, motion) = (space.map().grid(), space.motion());
+    let is_small = grid.width() * grid.height() <= 600;
+    let guarantee = planner.index().setup().guarantee();
+    if !is_small || !matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle) {
+        return 0;
+    }
+    let oracle = Explicit::new(grid, motion.rules, motion.k.finite());
+    for &query in queries {
+        let expected = oracle.costs_from(query.start).to(query.goal);
+        let found = planner.find(query).ok().and_then(|answer| answer.into_path()).map(|path| path.cost());
+        let same = match (found, expected) {
+            (Some(found), Some(expected)) => (found - expected).abs() < 1e-6,
+            (found, expected) => found == expected,
+        };
+        assert!(same, "{message}, {} to {}: {found:?}, not {expected:?}", query.start, query.goal);
+    }
+    queries.len()
+}
+
 #[test]
 fn every_index_follows_a_chain_of_edits() {
-    on_all_cores(seeds(40), |seed| {
+    let of_oracle = on_all_cores(seeds(40), |seed| {
+        let mut of_oracle = 0;
         let mut rng = Rng::new(seed);
         let map = Map::from(suite_grid(seed).0);
         for setup in setups(seed) {
@@ -85,7 +108,11 @@ fn every_index_follows_a_chain_of_edits() {
                 let new =
                     setup.prepare(&setup.space(space.map()).expect("it is searched")).expect("a small map");
                 planner.follow(&index).unwrap_or_else(|error| panic!("{message}: {error}"));
-                check_same(&mut planner, &new, &queries(&mut rng, &space), &message);
+                let queries = queries(&mut rng, &space);
+                check_same(&mut planner, &new, &queries, &message);
+                if step == 19 {
+                    of_oracle += check_shortest(&mut planner, &space, &queries, &message);
+                }
                 if rng.below(6) == 0 {
                     index = index.finish().unwrap_or_else(|error| panic!("{message}: {error}"));
                     assert!(index.is_finished(), "{message}");
@@ -97,7 +124,10 @@ fn every_index_follows_a_chain_of_edits() {
             let message = format!("seed {seed}, {setup}, the first");
             check_same(&mut planner, &new, &queries(&mut rng, &first.0), &message);
         }
+        of_oracle
     });
+    let of_oracle: usize = of_oracle.into_iter().sum();
+    assert!(of_oracle > 500, "{of_oracle} queries of the oracle");
 }
 
 fn queries(rng: &mut Rng, space: &Space) -> Vec<Ends> {
