@@ -76,13 +76,6 @@ impl NearGoal {
         Self { rows: all, columns: all }
     };
 
-    /// Dead ends are passed everywhere.
-    pub(super) const NOWHERE: Self = {
-        // No row or column has this number.
-        let none = Band { first: i32::MIN / 2, more: 0 };
-        Self { rows: none, columns: none }
-    };
-
     /// The rows and columns within `reach` of the goal's cross.
     pub(super) fn new(goal: Vertex, axial: &AxialStops, reach: u32) -> Self {
         let [down, right, up, left] = [0, 1, 2, 3].map(|quarter| axial.legal_steps(goal, quarter));

@@ -22,12 +22,15 @@ mod record;
 mod repair;
 mod stale;
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, Versioned, Vertex, VertexId};
+use mediant_grid::{
+    Footprint, GridGraph, Interrupt, Interrupted, Placement, Vector, Versioned, Vertex, VertexId,
+};
 use mediant_moves::Cost;
 
 pub(super) use self::record::Recorder;
 use super::{
     DURING, axial::JumpPointRule, block_finder::BlockFinder, dead_ends::DeadEndRows, finder::JumpContext,
+    stop_rows::holds,
 };
 use crate::{
     canonical::prunes,
@@ -149,11 +152,6 @@ impl Jump {
         let (steps, then_steps) = (word & MOST_STEPS, word >> 13 & MOST_STEPS);
         Self { steps, then: word >> 26 & 3, then_steps, holds: word >> 28 & 3 }
     }
-
-    /// Whether both lead the same way, if not as far.
-    fn is_along(self, other: Self) -> bool {
-        (self.steps, self.then) == (other.steps, other.then)
-    }
 }
 
 /// A move: what a graph says of it, without checks of its index.
@@ -178,9 +176,9 @@ impl JumpLists {
         if !prunes(graph) {
             return Ok(Self::of_no_jumps());
         }
-        if has_more_jump_points(graph, dead_ends, most, interrupt)? {
+        let Some(points) = jump_points(graph, dead_ends, most, interrupt)? else {
             return Ok(Self::none(Self::most_words(graph)));
-        }
+        };
         let mut legs = [Leg::default(); 8];
         for (leg, step) in legs.iter_mut().zip(graph.steps()) {
             let offset = step.target(VertexId(0)).0 as i32;
@@ -191,18 +189,22 @@ impl JumpLists {
         let mut places = vec![Place::default(); graph.steps().len() / 2 * per_move];
         let (mut starts, mut words) = (Vec::new(), Vec::new());
         let most = Self::most_words(graph);
-        for (row, by) in rows_of_jumps(graph) {
+        let (width, _) = P::vertices(graph.grid());
+        for ((row, by), points) in rows_of_jumps(graph).zip(points.chunks(width.div_ceil(64) as usize)) {
             interrupt.check(DURING)?;
-            for (number, node) in jump_points(graph, dead_ends, row, by).enumerate() {
+            for (number, x) in columns(points).enumerate() {
                 interrupt.check_every(64, number, DURING)?;
-                let (start, id) = (words.len(), node.id.index());
-                if recorder.record(&node, by, &mut words).is_none() {
+                let at = Vertex::new(x, row);
+                let Some(id) = graph.id(at) else { continue };
+                let start = words.len();
+                if recorder.record(&ExpandedNode { id, at, by: Some(by) }, by, &mut words).is_none() {
                     continue;
                 }
                 if starts.len() + words.len() + 2 > most {
                     words.truncate(start);
                     continue;
                 }
+                let id = id.index();
                 places[by / 2 * per_move + id / 64].has[id / 32 % 2] |= 1 << (id % 32);
                 starts.push(start as u32);
             }
@@ -401,49 +403,49 @@ fn rows_of_jumps<P: Placement>(graph: &GridGraph<P>) -> impl Iterator<Item = (i3
     (0..graph.steps().len()).step_by(2).flat_map(move |by| (0..height as i32).map(move |y| (y, by)))
 }
 
-/// Whether there are more jump points than so many that are no dead ends.
-fn has_more_jump_points<P: Placement>(
+/// The jump points where a path arrives by an even move, but for dead ends: for each of these moves, row by
+/// row, a word for 64 vertices. `None` if there are more than so many.
+fn jump_points<P: Placement>(
     graph: &GridGraph<P>,
     dead_ends: &DeadEndRows,
     most: usize,
     interrupt: &Interrupt,
-) -> Result<bool, Interrupted> {
-    if most == usize::MAX {
-        return Ok(false);
-    }
-    let mut count = 0;
-    for (row, by) in rows_of_jumps(graph) {
+) -> Result<Option<Vec<u64>>, Interrupted> {
+    let ((width, _), rule) = (P::vertices(graph.grid()), JumpPointRule::of(graph));
+    let (rows, mut words, mut count) = (graph.grid().rows(), Vec::new(), 0);
+    let mut step = Footprint::default();
+    for (y, by) in rows_of_jumps(graph) {
         interrupt.check(DURING)?;
-        count += jump_points(graph, dead_ends, row, by).count();
+        let (v, quarter) = (graph.step(by).vector(), by >> (graph.k().get() - 2));
+        if y == 0 {
+            step = Footprint::new::<P>(graph.rule(), v);
+        }
+        for x in (0..width as i32).step_by(64) {
+            let ends = rule.ends_in_row::<P>(rows, (x, y), v);
+            let mut points = ends.jump & !ends.dead & !0 >> (64 - (width as i32 - x).min(64));
+            if points != 0 {
+                // From outside the map no path arrives.
+                points &= holds(rows, (x - v.x, y - v.y), &step.free, &step.either);
+                points &= !dead_ends.in_row(quarter, (x, y));
+                count += points.count_ones() as usize;
+            }
+            words.push(points);
+        }
         if count > most {
-            return Ok(true);
+            return Ok(None);
         }
     }
-    Ok(false)
+    Ok(Some(words))
 }
 
-/// The jump points of row y that are no dead ends, where a path arrives by an even move.
-fn jump_points<P: Placement>(
-    graph: &GridGraph<P>,
-    dead_ends: &DeadEndRows,
-    y: i32,
-    by: usize,
-) -> impl Iterator<Item = ExpandedNode> {
-    let ((width, _), rule) = (P::vertices(graph.grid()), JumpPointRule::of(graph));
-    let (v, quarter) = (graph.step(by).vector(), by >> (graph.k().get() - 2));
-    (0..width as i32).step_by(64).flat_map(move |x| {
-        let ends = rule.ends_in_row::<P>(graph.grid().rows(), (x, y), v);
-        let mut left = ends.jump & !ends.dead & !dead_ends.in_row(quarter, (x, y));
-        let bits = std::iter::from_fn(move || {
-            let bit = (left != 0).then(|| left.trailing_zeros() as i32);
+/// The numbers of the bits that are set in words.
+fn columns(words: &[u64]) -> impl Iterator<Item = i32> {
+    (0..).step_by(64).zip(words).flat_map(|(first, &word)| {
+        let mut left = word;
+        std::iter::from_fn(move || {
+            let bit = (left != 0).then(|| first + left.trailing_zeros() as i32);
             left &= left.wrapping_sub(1);
             bit
-        });
-        bits.filter_map(move |bit| {
-            let at = Vertex::new(x + bit, y);
-            // From outside the map no path arrives.
-            let id = graph.id(at).filter(|_| graph.id(at + -v).is_some() && graph.sees(at + -v, at))?;
-            Some(ExpandedNode { id, at, by: Some(by) })
         })
     })
 }

@@ -103,7 +103,7 @@ impl JumpTable {
     /// quicker.
     ///
     /// It leads to the same costs as a new one. Whether it looks for dead ends, and whether it has lists, was
-    /// decided when it was made. Its lists have room for those of further edits, a quarter of their words or
+    /// decided when these were made anew. Its lists have room for those of further edits, a quarter of their words or
     /// a little more.
     ///
     /// # Errors
@@ -118,14 +118,13 @@ impl JumpTable {
     ) -> Result<Self, JumpError> {
         if let Some((blocks, altered)) = self.blocks.followed(graph, pruning, change, interrupt)? {
             let recorder = Recorder { graph, pruning, blocks: &blocks };
-            match self.lists.repaired(&recorder, self.blocks.axial_stops(), &altered, interrupt) {
-                Ok(lists) => {
-                    let is_repaired = self.is_repaired || !altered.zones.is_empty();
-                    return Ok(Self { blocks, lists, is_repaired });
-                }
-                Err(Stop::TooMuch) => {}
+            let lists = match self.lists.repaired(&recorder, self.blocks.axial_stops(), &altered, interrupt) {
+                Ok(lists) => lists,
+                Err(Stop::TooMuch) => JumpLists::anew(&recorder, interrupt)?,
                 Err(Stop::Interrupted(interrupted)) => return Err(interrupted.into()),
-            }
+            };
+            let is_repaired = self.is_repaired || !altered.zones.is_empty();
+            return Ok(Self { blocks, lists, is_repaired });
         }
         let planes = JumpPlanes::new(graph, pruning, interrupt)?;
         Ok(Self::from_planes(graph, pruning, planes, interrupt)?)

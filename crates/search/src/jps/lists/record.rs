@@ -1,19 +1,18 @@
 //! The lists of single jump points.
 
-use mediant_grid::{GridGraph, Placement};
+use mediant_grid::{GridGraph, Placement, Vertex};
 
 use super::{
     super::{
         block_finder::BlockFinder,
-        dead_ends::NearGoal,
-        finder::{JumpContext, JumpFinder, JumpRules, in_order},
-        to_goal::{ToGoal, cross},
+        finder::{JumpContext, JumpRules, in_order},
+        to_goal::ToGoal,
     },
     Group, Jump,
 };
 use crate::{
     canonical::{Pruning, pattern_at},
-    successors::{ExpandedNode, KnownPath},
+    successors::ExpandedNode,
 };
 
 /// Finds the jumps of single jump points.
@@ -44,83 +43,85 @@ impl<P: Placement> Recorder<'_, P> {
             while left != 0 {
                 let index = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let jumps = self.jumps(node, index);
-                let (length, count) = (self.length(node, index), jumps.len() as u32);
-                last = Some(words.len());
-                words.push(Group { index, length, count }.word()?);
-                for jump in jumps {
-                    words.push(jump.word()?);
-                }
+                let head = words.len();
+                words.push(0);
+                let jumps = |jump: Jump| jump.word().map(|word| words.push(word));
+                let length = self.jumps(node, index, jumps)?;
+                let count = (words.len() - head - 1) as u32;
+                words[head] = Group { index, length, count }.word()?;
+                last = Some(head);
             }
         }
         last
     }
 
-    /// The jumps by a move.
-    fn jumps(&self, node: &ExpandedNode, index: usize) -> Vec<Jump> {
-        let mut elsewhere = self.jumps_that_hold(node, index, Jump::ELSEWHERE).into_iter().peekable();
-        let mut jumps = Vec::new();
-        // Where a jump leads anywhere, it does near the goal, too, if not as far.
-        for near in self.jumps_that_hold(node, index, Jump::NEAR_GOAL) {
-            match elsewhere.next_if(|jump| jump.is_along(near)) {
-                Some(far) if far.then_steps == near.then_steps => {
-                    jumps.push(Jump { holds: near.holds | far.holds, ..near });
+    /// Calls `visit` with the jumps by a move, until it says `None`. Returns how often the move can be
+    /// repeated.
+    fn jumps(
+        &self,
+        node: &ExpandedNode,
+        index: usize,
+        mut visit: impl FnMut(Jump) -> Option<()>,
+    ) -> Option<u32> {
+        let (context, diagonals_may_force) = (self.context(node), self.pruning.diagonals_may_force());
+        if index & 1 == 0 {
+            let quarter = context.quarter(index);
+            let jump = |steps, holds| visit(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds });
+            self.axial((node.at, quarter), jump)?;
+            return Some(self.blocks.axial_stops().legal_steps(node.at, quarter));
+        }
+        let (step, beside) = (self.graph.step(index), context.beside(index));
+        let mut scan = self.blocks.diagonal_stops().scan(node.at, index);
+        let mut is_ended = false;
+        loop {
+            // With all the stops near the goal: where jumps pass dead ends, they find nothing there.
+            let (steps, leads) = scan.next(|_| Some([!0; 2]));
+            if leads == [false; 2] && !context.can_enter(node, index, steps) {
+                return Some(steps - 1);
+            }
+            if is_ended {
+                // The move can be repeated beyond the last jump point.
+                continue;
+            }
+            let at = node.at + step.vector() * steps as i32;
+            if diagonals_may_force && self.pruning.has_forced_at(pattern_at(self.graph, at), index) {
+                let holds = Jump::NEAR_GOAL | Jump::ELSEWHERE;
+                visit(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds })?;
+                is_ended = true;
+                continue;
+            }
+            for (then, (even, leads)) in (0..).zip(beside.into_iter().zip(leads)) {
+                if leads {
+                    let jump = |then_steps, holds| visit(Jump { steps, then, then_steps, holds });
+                    self.axial((at, context.quarter(even)), jump)?;
                 }
-                far => jumps.extend([near].into_iter().chain(far)),
             }
         }
-        jumps.extend(elsewhere);
-        jumps
     }
 
-    /// The jumps by a move, all near the goal or all elsewhere.
-    fn jumps_that_hold(&self, node: &ExpandedNode, index: usize, holds: u32) -> Vec<Jump> {
-        let near = if holds == Jump::NEAR_GOAL { NearGoal::EVERYWHERE } else { NearGoal::NOWHERE };
-        let has_other_nodes = self.pruning.diagonals_may_force();
-        let rules = JumpRules { near, has_other_nodes, ..JumpRules::PLAIN };
-        let (context, graph) = (self.context(node, &rules), self.graph);
-        let mut jumps = Vec::new();
-        if index & 1 == 0 {
-            if let Some(steps) = self.blocks.axial(&context, node, index, None, &mut 0) {
-                jumps.push(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds });
-            }
-            return jumps;
+    /// Calls `visit` with how far axial jumps lead to a jump point, and where they do: if they lead anywhere,
+    /// they do near the goal, too, if not as far.
+    fn axial(
+        &self,
+        (from, quarter): (Vertex, usize),
+        mut visit: impl FnMut(u32, u32) -> Option<()>,
+    ) -> Option<()> {
+        let axial = self.blocks.axial_stops();
+        let near = axial.scan(from, quarter, true);
+        if !near.found {
+            return Some(());
         }
-        let beside = context.beside(index);
-        self.blocks.diagonal(&context, node, index, &mut 0, &mut |next| {
-            let (d, v) = (node.at.to(next.at), graph.step(index).vector());
-            jumps.push(match beside.iter().position(|&even| even == next.by) {
-                Some(then) => {
-                    let steps = cross(graph.step(next.by).vector(), d).unsigned_abs();
-                    Jump { steps, then: then as u32, then_steps: cross(v, d).unsigned_abs(), holds }
-                }
-                None => {
-                    Jump { steps: d.x.abs().max(d.y.abs()) as u32, then: Jump::NO_TURN, then_steps: 0, holds }
-                }
-            });
-            KnownPath::NONE
-        });
-        jumps
+        let far = axial.scan(from, quarter, false);
+        if far.found && far.steps == near.steps {
+            return visit(near.steps, Jump::NEAR_GOAL | Jump::ELSEWHERE);
+        }
+        visit(near.steps, Jump::NEAR_GOAL)?;
+        if far.found { visit(far.steps, Jump::ELSEWHERE) } else { Some(()) }
     }
 
     /// The context of jumps without a goal.
-    fn context<'c>(&'c self, node: &ExpandedNode, rules: &'c JumpRules) -> JumpContext<'c, P> {
+    fn context(&self, node: &ExpandedNode) -> JumpContext<'_, P> {
         let (graph, pruning, to_goal) = (self.graph, self.pruning, ToGoal::default());
-        JumpContext { graph, pruning, goal: node.at, rules, stepwise: false, to_goal }
-    }
-
-    /// The number of times that a move can be repeated.
-    fn length(&self, node: &ExpandedNode, index: usize) -> u32 {
-        let context = self.context(node, &JumpRules::PLAIN);
-        if index & 1 == 0 {
-            return self.blocks.axial_stops().legal_steps(node.at, context.quarter(index));
-        }
-        let mut scan = self.blocks.diagonal_stops().scan(node.at, index);
-        loop {
-            let (steps, leads) = scan.next(|_| None);
-            if leads == [false; 2] && !context.can_enter(node, index, steps) {
-                return steps - 1;
-            }
-        }
+        JumpContext { graph, pruning, goal: node.at, rules: &JumpRules::PLAIN, stepwise: false, to_goal }
     }
 }

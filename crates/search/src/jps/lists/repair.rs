@@ -4,25 +4,29 @@
 //! longer than the old one takes its place; others go behind all that are there. When there is no more room,
 //! the lists are put together again.
 
-use mediant_grid::{GridGraph, Interrupt, Placement, VersionEdit, Vertex, VertexId};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VersionEdit, Vertex, VertexId};
 
 use super::{
     super::{
         DURING,
         axial::{AxialStops, Finding},
+        dead_ends::DeadEndRows,
         repair::{Altered, Stop},
+        zone::Zone,
     },
     JumpLists, Place, Recorder, list_from,
     stale::{Arrival, Stale},
 };
 use crate::{canonical::prunes, successors::ExpandedNode};
 
-/// One list of so many may be made again; if more are stale, all are made anew as quickly.
-const STALE: usize = 3;
+/// So many of four lists may be made again; if more are stale, all are made anew as quickly.
+const STALE_OF_FOUR: usize = 3;
 /// So many may be in any case.
 const FEW_STALE: usize = 64;
-/// Vertices of the map for a word that is looked at (25 ns).
-const VERTICES_A_WORD: usize = 4;
+/// So many words are looked at in half of the time in which a list is made,
+const WORDS_A_LIST: usize = 4;
+/// or so many vertices are searched for jump points.
+const VERTICES_A_WORD: usize = 32;
 /// So many words may be looked at in any case.
 const FEW_WORDS: usize = 1 << 10;
 /// Lists that are put together get room for one word more of so many.
@@ -53,6 +57,27 @@ impl JumpLists {
         self.places.get(place).is_some_and(|place| place.bits() >> bit & 1 == 1)
     }
 
+    /// New lists on planes that followed a change, where [`new`](Self::new) is told of the dead ends.
+    pub(in super::super) fn anew<P: Placement>(
+        recorder: &Recorder<'_, P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let (grid, mut dead_ends) = (recorder.graph.grid(), DeadEndRows::default());
+        for quarter in 0..4 {
+            recorder.blocks.axial_stops().for_each_jump_point(
+                (Zone::map::<P>(grid), quarter),
+                true,
+                |point| {
+                    if dead_ends.is_empty() {
+                        dead_ends = DeadEndRows::new(P::vertices(grid));
+                    }
+                    dead_ends.add(point.at, quarter);
+                },
+            );
+        }
+        Self::new(recorder, &dead_ends, interrupt)
+    }
+
     /// The lists after a change, which the planes of the recorder follow, with the axial planes before it.
     /// Whether there are lists at all was decided before.
     pub(in super::super) fn repaired<P: Placement>(
@@ -62,8 +87,9 @@ impl JumpLists {
         altered: &Altered,
         interrupt: &Interrupt,
     ) -> Result<Self, Stop> {
-        let words = FEW_WORDS.max(recorder.graph.vertex_count() / VERTICES_A_WORD);
-        let most = [words, FEW_STALE.max(self.size.starts / STALE)];
+        let lists = self.size.starts;
+        let words = recorder.graph.vertex_count() / VERTICES_A_WORD + lists * WORDS_A_LIST;
+        let most = [FEW_WORDS.max(words), FEW_STALE.max(lists * STALE_OF_FOUR / 4)];
         self.repaired_within(most, recorder, (before, altered), interrupt)
     }
 

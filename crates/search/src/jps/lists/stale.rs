@@ -8,7 +8,9 @@
 //! alters whether they can, the vertex before is looked at, too: the cells between belong to the patterns of
 //! both.)
 //!
-//! Diagonals are gone back 64 vertices at a time. Which of them have lists is then said by a word.
+//! Each vertex that is found otherwise is gone back from until the next one, which goes on from there. What
+//! that comes to is put together by rows, and all the rest is done 64 vertices at a time: diagonals are gone
+//! back, and a word says which vertices have lists.
 //!
 //! More lists may be found than are stale: those that are made again and are the same stay where they are.
 
@@ -17,7 +19,7 @@ use mediant_grid::{Footprint, GridGraph, Interrupt, Placement, Vector, Vertex};
 use super::{
     super::{
         DURING,
-        axial::{AxialStops, Finding},
+        axial::{AxialStops, Finding, JumpPointRule},
         repair::{Altered, Stop},
         stop_rows::{carried, holds},
         zone::Zone,
@@ -49,31 +51,51 @@ struct Mark {
     bits: u64,
 }
 
-/// Vertices where a diagonal jump is altered if it comes there, for each odd move.
-type Marks = [Vec<Mark>; 4];
+/// From most vertices that are found otherwise it goes back at least so far.
+const LEAST_STEPS: usize = 3;
+/// Marks are put in order by a map of all words, if there is one of them for so many words.
+const WORDS_A_MARK: usize = 16;
 
 impl<P: Placement> Stale<'_, P> {
     /// All stale lists, and places near the change where lists may begin to be. In order, each once.
     pub(super) fn find(mut self, altered: &Altered) -> Result<Vec<Arrival>, Stop> {
-        let (mut found, mut marks) = (Vec::new(), Marks::default());
         let moves = self.graph.steps().len();
+        let mut found = Vec::new();
+        let mut zones = Vec::new();
         for zone in &altered.zones {
-            self.interrupt.check(DURING)?;
-            for at in zone.vertices() {
-                (0..moves).step_by(2).for_each(|by| self.add_changed(at, by, &mut found));
-                marks.iter_mut().take(moves / 2).for_each(|marks| mark(marks, at));
+            for y in zone.first.y..=zone.last.y {
+                for word in zone.first.x >> 6..=zone.last.x >> 6 {
+                    let (from, to) = ((zone.first.x - 64 * word).max(0), (zone.last.x - 64 * word).min(63));
+                    mark(&mut zones, Mark { y, word, bits: !0 << from & !0 >> (63 - to) });
+                }
             }
         }
+        let zones = self.joined(zones);
+        self.spend(zones.len() + altered.found.len() * LEAST_STEPS)?;
+        self.left += altered.found.len() * LEAST_STEPS;
+        for (number, &mark) in zones.iter().enumerate() {
+            self.interrupt.check_every(64, number, DURING)?;
+            self.add_changed(mark, &mut found);
+        }
+        // The vertices from which an even move comes to one that is found otherwise.
+        let mut reached = [const { Vec::new() }; 4];
         for (number, &(at, quarter)) in altered.found.iter().enumerate() {
             self.interrupt.check_every(64, number, DURING)?;
-            let even = quarter << (self.graph.k().get() - 2);
-            self.add_changed(at, even, &mut found);
-            self.go_back((at, quarter), even, (&mut found, &mut marks))?;
+            self.go_back((at, quarter), &mut reached[quarter], &mut found)?;
         }
-        for (i, marks) in marks.into_iter().enumerate() {
+        let reached = reached.map(|marks| self.joined(marks));
+        for even in (0..moves).step_by(2) {
+            let marks = &reached[self.quarter(even)];
+            self.interrupt.check(DURING)?;
+            marks.iter().for_each(|&mark| self.add(mark, even, &mut found));
+        }
+        for odd in (1..moves).step_by(2) {
+            self.interrupt.check(DURING)?;
+            let beside = [odd - 1, (odd + 1) % moves].map(|even| &*reached[self.quarter(even)]);
+            let marks = [&zones, beside[0], beside[1]].concat();
             if !marks.is_empty() {
-                self.interrupt.check(DURING)?;
-                self.sweep(2 * i + 1, marks, &mut found)?;
+                let marks = self.joined(marks);
+                self.sweep(odd, marks, &mut found)?;
             }
         }
         found.sort_unstable();
@@ -86,31 +108,75 @@ impl<P: Placement> Stale<'_, P> {
         Ok(())
     }
 
-    /// Goes back along a row or column from a vertex that axial jumps find otherwise.
+    /// The direction of an even move.
+    fn quarter(&self, even: usize) -> usize {
+        even >> (self.graph.k().get() - 2)
+    }
+
+    /// Marks by rows and words, one for each word.
+    fn joined(&self, mut marks: Vec<Mark>) -> Vec<Mark> {
+        let (width, height) = P::vertices(self.graph.grid());
+        let per_row = width.div_ceil(64) as usize;
+        let words = per_row * height as usize;
+        if marks.len() * WORDS_A_MARK < words {
+            marks.sort_unstable_by_key(|mark| (mark.y, mark.word));
+            marks.dedup_by(|next, mark| {
+                let is_same = (next.y, next.word) == (mark.y, mark.word);
+                if is_same {
+                    mark.bits |= next.bits;
+                }
+                is_same
+            });
+            return marks;
+        }
+        let mut map = vec![0; words];
+        for &Mark { y, word, bits } in &marks {
+            map[y as usize * per_row + word as usize] |= bits;
+        }
+        marks.clear();
+        for (y, row) in (0..).zip(map.chunks_exact(per_row)) {
+            let row = (0..).zip(row).filter(|&(_, &bits)| bits != 0);
+            marks.extend(row.map(|(word, &bits)| Mark { y, word, bits }));
+        }
+        marks
+    }
+
+    /// Goes back along a row or column from a vertex that axial jumps find otherwise. Marks the vertices from
+    /// which they come there.
     fn go_back(
         &mut self,
         (from, quarter): (Vertex, usize),
-        even: usize,
-        (found, marks): (&mut Vec<Arrival>, &mut Marks),
+        reached: &mut Vec<Mark>,
+        found: &mut Vec<Arrival>,
     ) -> Result<(), Stop> {
-        let (last, map) = (self.graph.steps().len() - 1, Zone::map::<P>(self.graph.grid()));
-        let back = -self.graph.step(even).vector();
+        let (even, map) = (quarter << (self.graph.k().get() - 2), Zone::map::<P>(self.graph.grid()));
         let [was, is] = self.axial;
         let findings = |at| was.findings(is, at, quarter);
+        let ends = findings(from);
+        if ends[0] == ends[1] {
+            // A dead end as before, near the change.
+            return Ok(());
+        }
+        let arrival = self.lists.arrival(self.graph, from, even);
+        found.extend(arrival.filter(|&arrival| ends[1] == Finding::JumpPoint || self.lists.has(arrival)));
         // Otherwise lists say of jumps that end before it how often their move can be repeated, as before.
-        let is_wall = findings(from).iter().filter(|&&end| end == Finding::Blocked).count() == 1;
-        let (mut at, mut is_reached) = (from + back, true);
+        let is_blocked = |ends: [Finding; 2]| ends.map(|end| end == Finding::Blocked);
+        let is_wall = |ends| matches!(is_blocked(ends), [true, false] | [false, true]);
+        let back = -self.graph.step(even).vector();
+        let (is_wall_there, mut at, mut is_reached) = (is_wall(ends), from + back, true);
         while map.holds(at) {
             self.spend(1)?;
-            self.add(at, even, found);
+            let here = Mark { y: at.y, word: at.x >> 6, bits: 1 << (at.x & 63) };
             if is_reached {
-                for odd in [even + 1, even + last] {
-                    mark(&mut marks[(odd & last) / 2], at);
-                }
+                mark(reached, here);
+            } else {
+                self.add(here, even, found);
             }
             let ends = findings(at);
             is_reached &= ends.iter().any(|end| !matches!(end, Finding::Blocked | Finding::JumpPoint));
-            if ends == [Finding::Blocked; 2] || !is_reached && !is_wall {
+            // The vertex here may be one from which to go back, as far.
+            let goes_on = ends[0] != ends[1] && (is_wall(ends) || !is_wall_there);
+            if goes_on || is_blocked(ends) == [true; 2] || !is_reached && !is_wall_there {
                 break;
             }
             at = at + back;
@@ -118,21 +184,23 @@ impl<P: Placement> Stale<'_, P> {
         Ok(())
     }
 
-    /// Adds a vertex that has a list, or may need one.
-    fn add_changed(&self, at: Vertex, by: usize, found: &mut Vec<Arrival>) {
-        let Some(arrival) = self.lists.arrival(self.graph, at, by) else { return };
-        let findings = || self.axial[1].findings(self.axial[1], at, by >> (self.graph.k().get() - 2));
-        if self.lists.has(arrival) || findings()[0] == Finding::JumpPoint {
-            found.push(arrival);
+    /// Adds the vertices near the change that have lists, or may need one.
+    fn add_changed(&self, Mark { y, word, bits }: Mark, found: &mut Vec<Arrival>) {
+        let rule = JumpPointRule::of(self.graph);
+        for by in (0..self.graph.steps().len()).step_by(2) {
+            let v = self.graph.step(by).vector();
+            let ends = rule.ends_in_row::<P>(self.graph.grid().rows(), (64 * word, y), v);
+            let Some(lists) = self.lists_of((64 * word, y), by) else { continue };
+            let left = bits & (ends.jump & !ends.dead | lists.bits);
+            found.extend(bits_of(left).map(|bit| lists.arrival(bit)));
         }
     }
 
-    /// Adds the lists of a vertex that hold jumps by a move.
-    fn add(&self, at: Vertex, index: usize, found: &mut Vec<Arrival>) {
-        for by in (0..self.graph.steps().len()).step_by(2) {
-            let arrival = self.lists.arrival(self.graph, at, by).filter(|&arrival| self.lists.has(arrival));
-            found.extend(arrival.filter(|_| self.goes_on(at, by, index)));
-        }
+    /// The lists of 64 vertices of a row where a path arrives by a move.
+    fn lists_of(&self, (x, y): (i32, i32), by: usize) -> Option<RowLists> {
+        let (place, shift) = self.lists.arrival(self.graph, Vertex::new(x, y), by)?;
+        let of = |place: usize| self.lists.places.get(place).map_or(0, |place| place.bits());
+        Some(RowLists { place, shift, bits: of(place) >> shift | of(place + 1) << 1 << (63 - shift) })
     }
 
     /// Whether a path that arrives at a vertex by one move goes on by another. (Where the pattern changes,
@@ -146,21 +214,26 @@ impl<P: Placement> Stale<'_, P> {
         let v = self.graph.step(odd).vector();
         let step = (v, Footprint::new::<P>(self.graph.rule(), v));
         if v.y == 0 {
-            // Each word after the one that the jump enters next.
-            sort(&mut marks, [1, -v.x]);
-            return self.sweep_rows(odd, &step, (&joined(marks), found));
+            if v.x > 0 {
+                // Each word after the one that the jump enters next.
+                marks.reverse();
+            }
+            return self.sweep_rows(odd, &step, (&marks, found));
         }
-        sort(&mut marks, [-v.y, 1]);
-        let marks = joined(marks);
-        let mut rest = marks.iter().peekable();
+        let mut rows: Vec<&[Mark]> = marks.chunk_by(|one, next| one.y == next.y).collect();
+        if v.y > 0 {
+            rows.reverse();
+        }
+        let mut rest = rows.into_iter().peekable();
         let (mut row, mut before): (Vec<Mark>, Vec<Mark>) = (Vec::new(), Vec::new());
-        while let Some(&&Mark { mut y, .. }) = rest.peek() {
+        while let Some(&&[Mark { mut y, .. }, ..]) = rest.peek() {
             loop {
-                let known = row.len();
-                row.extend(std::iter::from_fn(|| rest.next_if(|mark| mark.y == y)));
-                if known > 0 && row.len() > known {
-                    sort(&mut row, [1, 1]);
-                    row = joined(row);
+                if let Some(marks) = rest.next_if(|marks| marks[0].y == y) {
+                    if row.is_empty() {
+                        row.extend_from_slice(marks);
+                    } else {
+                        join(&mut row, marks);
+                    }
                 }
                 self.spend(row.len())?;
                 y -= v.y;
@@ -185,7 +258,7 @@ impl<P: Placement> Stale<'_, P> {
                 if row.is_empty() {
                     break;
                 }
-                row.iter().for_each(|&mark| self.add_word(mark, odd, found));
+                row.iter().for_each(|&mark| self.add(mark, odd, found));
             }
         }
         Ok(())
@@ -213,7 +286,7 @@ impl<P: Placement> Stale<'_, P> {
                     let bits = carried::<true>((marked & enters) >> 1 | carry << 63, enters >> 1);
                     carry = (marked | bits) & enters & 1;
                     at.bits = turned(bits) & self.in_row(at.y, at.word);
-                    self.add_word(at, odd, found);
+                    self.add(at, odd, found);
                     at.word -= step.0.x;
                     if carry == 0 || self.in_row(at.y, at.word) == 0 {
                         break;
@@ -240,45 +313,57 @@ impl<P: Placement> Stale<'_, P> {
     }
 
     /// Adds the lists of 64 vertices that hold jumps by a move.
-    fn add_word(&self, Mark { y, word, bits }: Mark, index: usize, found: &mut Vec<Arrival>) {
-        let first = Vertex::new(64 * word, y);
+    fn add(&self, Mark { y, word, bits }: Mark, index: usize, found: &mut Vec<Arrival>) {
         for by in (0..self.graph.steps().len()).step_by(2) {
-            let Some((place, shift)) = self.lists.arrival(self.graph, first, by) else { continue };
-            let of = |place: usize| self.lists.places.get(place).map_or(0, |place| place.bits());
-            let mut left = bits & (of(place) >> shift | of(place + 1) << 1 << (63 - shift));
-            while left != 0 {
-                let bit = left.trailing_zeros();
-                left &= left - 1;
-                if self.goes_on(Vertex::new(first.x + bit as i32, y), by, index) {
-                    let bit = shift + bit;
-                    found.push((place + bit as usize / 64, bit % 64));
-                }
-            }
+            let Some(lists) = self.lists_of((64 * word, y), by) else { continue };
+            let held = bits_of(bits & lists.bits)
+                .filter(|&bit| self.goes_on(Vertex::new(64 * word + bit as i32, y), by, index));
+            found.extend(held.map(|bit| lists.arrival(bit)));
         }
     }
 }
 
-/// Sorts marks by their rows, then by their words; −1 for descending.
-fn sort(marks: &mut [Mark], [down, right]: [i32; 2]) {
-    marks.sort_unstable_by_key(|mark| (down * mark.y, right * mark.word));
+/// The lists of 64 vertices of a row: the place of the first of them, and its bit there.
+#[derive(Clone, Copy, Debug)]
+struct RowLists {
+    place: usize,
+    shift: u32,
+    bits: u64,
 }
 
-fn mark(marks: &mut Vec<Mark>, at: Vertex) {
-    let (word, bits) = (at.x >> 6, 1 << (at.x & 63));
+impl RowLists {
+    fn arrival(self, bit: u32) -> Arrival {
+        let bit = self.shift + bit;
+        (self.place + bit as usize / 64, bit % 64)
+    }
+}
+
+/// The numbers of the bits that are set.
+fn bits_of(mut left: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let bit = (left != 0).then(|| left.trailing_zeros());
+        left &= left.wrapping_sub(1);
+        bit
+    })
+}
+
+fn mark(marks: &mut Vec<Mark>, new: Mark) {
     match marks.last_mut() {
-        Some(last) if (last.y, last.word) == (at.y, word) => last.bits |= bits,
-        _ => marks.push(Mark { y: at.y, word, bits }),
+        Some(last) if (last.y, last.word) == (new.y, new.word) => last.bits |= new.bits,
+        _ => marks.push(new),
     }
 }
 
-/// One mark for each word, from marks in order.
-fn joined(mut marks: Vec<Mark>) -> Vec<Mark> {
-    marks.dedup_by(|next, mark| {
-        let is_same = (next.y, next.word) == (mark.y, mark.word);
-        if is_same {
-            mark.bits |= next.bits;
+/// Adds marks of the same row. Both are in order.
+fn join(row: &mut Vec<Mark>, marks: &[Mark]) {
+    let mut at = 0;
+    for &mark in marks {
+        while row.get(at).is_some_and(|known| known.word < mark.word) {
+            at += 1;
         }
-        is_same
-    });
-    marks
+        match row.get_mut(at) {
+            Some(known) if known.word == mark.word => known.bits |= mark.bits,
+            _ => row.insert(at, mark),
+        }
+    }
 }
