@@ -4,7 +4,7 @@
 //! longer than the old one takes its place; others go behind all that are there. When there is no more room,
 //! the lists are put together again.
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VersionEdit, Vertex, VertexId};
+use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, VersionEdit, Versioned, Vertex, VertexId};
 
 use super::{
     super::{
@@ -19,19 +19,22 @@ use super::{
 };
 use crate::{canonical::prunes, successors::ExpandedNode};
 
-/// So many of four lists may be made again; if more are stale, all are made anew as quickly.
-const STALE_OF_FOUR: usize = 3;
+/// One list of so many may be made again; if more are stale, all are made anew as quickly.
+const STALE: usize = 2;
 /// So many may be in any case.
 const FEW_STALE: usize = 64;
-/// So many words are looked at in half of the time in which a list is made,
-const WORDS_A_LIST: usize = 4;
-/// or so many vertices are searched for jump points.
-const VERTICES_A_WORD: usize = 32;
+/// So many words are looked at (25 ns) where all lists are made anew in twice the time, for each of these
+/// lists,
+const WORDS_A_LIST: usize = 3;
+/// and one more for so many vertices of the map, which are searched for jump points.
+const VERTICES_A_WORD: usize = 64;
 /// So many words may be looked at in any case.
 const FEW_WORDS: usize = 1 << 10;
 /// Lists that are put together get room for one word more of so many.
 const ROOM: usize = 4;
 const LEAST_ROOM: usize = 256;
+/// They stay as they are if one word of so many is no longer in use.
+const DEAD: usize = 8;
 
 /// A list that was made, among the words of all; none where there is none now.
 struct Made {
@@ -89,7 +92,7 @@ impl JumpLists {
     ) -> Result<Self, Stop> {
         let lists = self.size.starts;
         let words = recorder.graph.vertex_count() / VERTICES_A_WORD + lists * WORDS_A_LIST;
-        let most = [FEW_WORDS.max(words), FEW_STALE.max(lists * STALE_OF_FOUR / 4)];
+        let most = [FEW_WORDS.max(words), FEW_STALE.max(lists / STALE)];
         self.repaired_within(most, recorder, (before, altered), interrupt)
     }
 
@@ -150,7 +153,14 @@ impl JumpLists {
     /// These lists, where others have been made.
     fn with(&self, made: &[Made], words: &[u32]) -> Self {
         let runs = || made.chunk_by(|one, next| one.arrival.0 == next.arrival.0);
-        let starts = |run: &[Made]| self.places[run[0].arrival.0].bits().count_ones() as usize + run.len();
+        let starts = |run: &[Made]| {
+            let bits = self.places[run[0].arrival.0].bits();
+            let after = run.iter().fold(bits, |bits, made| match 1 << made.arrival.1 {
+                bit if made.words.is_empty() => bits & !bit,
+                bit => bits | bit,
+            });
+            if after.count_ones() > bits.count_ones() { after.count_ones() as usize } else { 0 }
+        };
         let needed = [runs().map(starts).sum(), words.len()];
         let has_room = self.size.starts + needed[0] <= self.starts.len()
             && self.size.words + needed[1] <= self.words.len();
@@ -159,8 +169,7 @@ impl JumpLists {
             let (starts, words) = (self.starts.edit(), self.words.edit());
             Edit { places: self.places.edit(), starts, words, size }
         } else {
-            let Self { places, starts, words, size, .. } = self.together(needed);
-            Edit { places: places.into_edit(), starts: starts.into_edit(), words: words.into_edit(), size }
+            self.together(needed)
         };
         runs().for_each(|run| edit.replace(run, words));
         let Edit { places, starts, words, size } = edit;
@@ -168,28 +177,35 @@ impl JumpLists {
         Self { legs, turns, places, per_move, starts, words, size }
     }
 
-    /// The same lists put together, with room for so many more starts and words, and for some edits.
-    fn together(&self, needed: [usize; 2]) -> Self {
-        let (mut starts, mut words) = (Vec::new(), Vec::new());
-        let mut edit = self.places.edit();
-        let mut known = usize::MAX;
-        for (place, _, list) in self.all() {
-            if place != known {
-                edit.set(place, Place { first: starts.len() as u32, ..self.places[place] });
-                known = place;
-            }
-            starts.push(words.len() as u32);
-            words.extend_from_slice(list);
-        }
+    /// An edit of these lists put together, with room for so many more starts and words, and for some edits.
+    fn together(&self, needed: [usize; 2]) -> Edit {
         let mut size = self.size;
-        (size.starts, size.words) = (starts.len(), words.len());
-        for (words, needed) in [(&mut starts, needed[0]), (&mut words, needed[1])] {
-            let room = needed + (words.len() / ROOM).max(LEAST_ROOM);
-            words.reserve_exact(room);
-            words.resize(words.len() + room, 0);
-        }
-        let (places, starts, words) = (edit.finish(), starts.into(), words.into());
-        Self { legs: self.legs, turns: self.turns, places, per_move: self.per_move, starts, words, size }
+        let with_room = |used: &[u32], needed: usize| {
+            let room = needed + (used.len() / ROOM).max(LEAST_ROOM);
+            let mut words = Vec::with_capacity(used.len() + room);
+            words.extend_from_slice(used);
+            words.resize(used.len() + room, 0);
+            Versioned::from(words).into_edit()
+        };
+        let used = size.starts + size.words;
+        let (places, starts, words) = if (used - size.live) * DEAD <= used {
+            let (starts, words) = (&self.starts[..size.starts], &self.words[..size.words]);
+            (self.places.edit(), with_room(starts, needed[0]), with_room(words, needed[1]))
+        } else {
+            let (mut places, mut starts, mut words) = (self.places.edit(), Vec::new(), Vec::new());
+            let mut known = usize::MAX;
+            for (place, _, list) in self.all() {
+                if place != known {
+                    places.set(place, Place { first: starts.len() as u32, ..self.places[place] });
+                    known = place;
+                }
+                starts.push(words.len() as u32);
+                words.extend_from_slice(list);
+            }
+            (size.starts, size.words) = (starts.len(), words.len());
+            (places, with_room(&starts, needed[0]), with_room(&words, needed[1]))
+        };
+        Edit { places, starts, words, size }
     }
 }
 

@@ -52,7 +52,7 @@ struct Mark {
 }
 
 /// From most vertices that are found otherwise it goes back at least so far.
-const LEAST_STEPS: usize = 3;
+const LEAST_STEPS: usize = 4;
 /// Marks are put in order by a map of all words, if there is one of them for so many words.
 const WORDS_A_MARK: usize = 16;
 
@@ -187,20 +187,25 @@ impl<P: Placement> Stale<'_, P> {
     /// Adds the vertices near the change that have lists, or may need one.
     fn add_changed(&self, Mark { y, word, bits }: Mark, found: &mut Vec<Arrival>) {
         let rule = JumpPointRule::of(self.graph);
-        for by in (0..self.graph.steps().len()).step_by(2) {
+        for (by, lists) in self.lists_of(64 * word, y) {
             let v = self.graph.step(by).vector();
             let ends = rule.ends_in_row::<P>(self.graph.grid().rows(), (64 * word, y), v);
-            let Some(lists) = self.lists_of((64 * word, y), by) else { continue };
             let left = bits & (ends.jump & !ends.dead | lists.bits);
             found.extend(bits_of(left).map(|bit| lists.arrival(bit)));
         }
     }
 
-    /// The lists of 64 vertices of a row where a path arrives by a move.
-    fn lists_of(&self, (x, y): (i32, i32), by: usize) -> Option<RowLists> {
-        let (place, shift) = self.lists.arrival(self.graph, Vertex::new(x, y), by)?;
+    /// The lists of 64 vertices of a row, for each even move by which a path arrives.
+    fn lists_of(&self, x: i32, y: i32) -> impl Iterator<Item = (usize, RowLists)> {
+        let first = self.lists.arrival(self.graph, Vertex::new(x, y), 0);
         let of = |place: usize| self.lists.places.get(place).map_or(0, |place| place.bits());
-        Some(RowLists { place, shift, bits: of(place) >> shift | of(place + 1) << 1 << (63 - shift) })
+        first.into_iter().flat_map(move |(place, shift)| {
+            (0..self.graph.steps().len()).step_by(2).map(move |by| {
+                let place = place + by / 2 * self.lists.per_move;
+                let bits = of(place) >> shift | of(place + 1) << 1 << (63 - shift);
+                (by, RowLists { place, shift, bits })
+            })
+        })
     }
 
     /// Whether a path that arrives at a vertex by one move goes on by another. (Where the pattern changes,
@@ -314,8 +319,7 @@ impl<P: Placement> Stale<'_, P> {
 
     /// Adds the lists of 64 vertices that hold jumps by a move.
     fn add(&self, Mark { y, word, bits }: Mark, index: usize, found: &mut Vec<Arrival>) {
-        for by in (0..self.graph.steps().len()).step_by(2) {
-            let Some(lists) = self.lists_of((64 * word, y), by) else { continue };
+        for (by, lists) in self.lists_of(64 * word, y) {
             let held = bits_of(bits & lists.bits)
                 .filter(|&bit| self.goes_on(Vertex::new(64 * word + bit as i32, y), by, index));
             found.extend(held.map(|bit| lists.arrival(bit)));
