@@ -3,7 +3,7 @@
 //! The numbers are those of the study `docs/results/changes.md`, which `cargo xtask compare --changes` makes.
 //! A test of `mediant-bench` holds the choice beside the best engine of each map, motion and number of paths.
 
-use mediant_grid::PlacementKind;
+use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex, sight::line_of_sight_under};
 
 use crate::{choice::Choice, engine::Engine, map::Map, motion::Motion, setup::Setup};
 
@@ -14,6 +14,10 @@ const MOST_CELLS_OF_SMALL: u64 = 1 << 20;
 /// From so many convex corners a cell on a map is noise: 0.41 where 20 % of the cells are blocked. In rooms
 /// and on maps of games and cities it was 0.006 to 0.023. In noise no jump is long.
 const CORNERS_OF_NOISE: f64 = 0.1;
+
+/// From so large a share of free lines on, obstacles stand alone on a small map. It was 0.64 and 0.75 there, and
+/// 0.52 at most in caves, in rooms and in noise. Paths are so direct that what takes longer to repair pays later.
+const FREE_LINES_OF_ALONE: f64 = 0.6;
 
 /// Up to so many paths between two edits, between centers, block-based JPS. JPS+ takes longer to repair and
 /// less to search: it was as fast at 1 to 12 paths on most maps, where obstacles stand alone at 30 to 270.
@@ -26,17 +30,31 @@ const MOST_PATHS_OF_BLOCKS_AT_CORNERS: u64 = 30;
 /// were as fast at 41 to 530 paths on most maps, where obstacles stand alone later.
 const MOST_PATHS_WITHOUT_LABELS: u64 = 300;
 
-/// The same for Anya: 15 to 235 paths. And for JPS+ on large maps: 41.
+/// The same where obstacles stand alone.
+const MOST_PATHS_WITHOUT_LABELS_ALONE: u64 = 3_000;
+
+/// The same for Anya: 15 to 70 paths. And for JPS+ on large maps: 41.
 const MOST_PATHS_OF_ANYA: u64 = 30;
 
-/// The places that are looked at for corners.
+/// The same where obstacles stand alone: 150 to 330.
+const MOST_PATHS_OF_ANYA_ALONE: u64 = 200;
+
+/// The places of a map that are looked at.
 const SAMPLE: u32 = 4_096;
 
 impl Choice {
     /// For a map that changes, with so many paths between two edits.
     pub(crate) fn for_changing_map(motion: Motion, map: &Map, paths: u64) -> Self {
         let cells = u64::from(map.width()) * u64::from(map.height());
-        let (is_large, is_noise) = (cells > MOST_CELLS_OF_SMALL, corners(map) > CORNERS_OF_NOISE);
+        let is_large = cells > MOST_CELLS_OF_SMALL;
+        let Look { corners, free_lines } = Look::at(map);
+        let is_noise = corners > CORNERS_OF_NOISE;
+        let is_alone = free_lines > FREE_LINES_OF_ALONE && !is_noise && !is_large;
+        let (without_labels, anya) = if is_alone {
+            (MOST_PATHS_WITHOUT_LABELS_ALONE, MOST_PATHS_OF_ANYA_ALONE)
+        } else {
+            (MOST_PATHS_WITHOUT_LABELS, MOST_PATHS_OF_ANYA)
+        };
         let at_corners = motion.rules.placement() == PlacementKind::Corner;
         let choice = |engine, why| Self { engine, why };
         let canonical = choice(Engine::Canonical, "it follows an edit at once, and jumps are short in noise");
@@ -46,10 +64,10 @@ impl Choice {
                 choice(Engine::Jps, "it follows an edit at once, and Anya is slow in noise")
             }
             Some(2 | 3) => {
-                let (blocks, lists) = match (is_large, at_corners) {
+                let (blocks, lists) = match (is_large, at_corners || is_alone) {
                     (true, _) => (0, MOST_PATHS_OF_ANYA),
-                    (false, true) => (MOST_PATHS_OF_BLOCKS_AT_CORNERS, MOST_PATHS_WITHOUT_LABELS),
-                    (false, false) => (MOST_PATHS_OF_BLOCKS, MOST_PATHS_WITHOUT_LABELS),
+                    (false, true) => (MOST_PATHS_OF_BLOCKS_AT_CORNERS, without_labels),
+                    (false, false) => (MOST_PATHS_OF_BLOCKS, without_labels),
                 };
                 let has_lists = Setup::new(Engine::JpsPlus, motion).check().is_ok();
                 match paths {
@@ -62,7 +80,7 @@ impl Choice {
             }
             Some(_) if !at_corners && is_noise => canonical,
             Some(_) if !at_corners => Self::for_many_paths(motion, map),
-            _ if paths <= MOST_PATHS_OF_ANYA || is_noise && !is_large => {
+            _ if paths <= anya || is_noise && !is_large => {
                 choice(Engine::Anya, "what it prepares follows an edit at once")
             }
             _ => Self::for_many_paths(motion, map),
@@ -70,15 +88,32 @@ impl Choice {
     }
 }
 
-/// The convex corners of blocked cells by the cells of a map, from a sample of places all over it.
-fn corners(map: &Map) -> f64 {
-    let (width, height) = (u64::from(map.width()), u64::from(map.height()));
-    // Multiples of two irrational numbers spread evenly: 2^32 / 1.3247… and 2^32 / 1.3247…².
-    let spread = |at: u32, step: u32, side: u64| ((u64::from(at.wrapping_mul(step)) * side) >> 32) as i32;
-    let is_corner = |at: &u32| {
-        let (x, y) = (spread(*at, 3_242_174_889, width), spread(*at, 2_447_445_414, height));
-        let around = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
-        around.into_iter().filter(|&cell| map.is_blocked(cell)).count() == 1
-    };
-    (0..SAMPLE).filter(is_corner).count() as f64 / f64::from(SAMPLE)
+/// What a sample of places all over a map tells of it.
+struct Look {
+    /// The convex corners of blocked cells, by the cells of the map.
+    corners: f64,
+    /// Of the free cells, those from which a straight line to 16 columns and 5 rows beyond is free.
+    free_lines: f64,
+}
+
+impl Look {
+    fn at(map: &Map) -> Self {
+        let (width, height) = (u64::from(map.width()), u64::from(map.height()));
+        // Multiples of two irrational numbers spread evenly: 2^32 / 1.3247… and 2^32 / 1.3247…².
+        let spread = |at: u32, step: u32, side: u64| ((u64::from(at.wrapping_mul(step)) * side) >> 32) as i32;
+        let places = (0..SAMPLE)
+            .map(|at| Vertex::new(spread(at, 3_242_174_889, width), spread(at, 2_447_445_414, height)));
+        let (mut corners, mut free, mut lines) = (0, 0, 0);
+        for at @ Vertex { x, y } in places {
+            let around = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
+            corners += u32::from(around.into_iter().filter(|&cell| map.is_blocked(cell)).count() == 1);
+            if map.is_free(at) {
+                let open = Rules::Corner(DiagonalGap::Open);
+                free += 1;
+                lines += u32::from(line_of_sight_under(map.grid(), open, at, Vertex::new(x + 16, y + 5)));
+            }
+        }
+        let share = |part: u32, all: u32| f64::from(part) / f64::from(all.max(1));
+        Self { corners: share(corners, SAMPLE), free_lines: share(lines, free) }
+    }
 }

@@ -77,6 +77,11 @@ fn columns() -> Vec<Column> {
             "",
             "timelines: the convex corners of blocked cells, by the cells of the map",
         ),
+        Column::count(
+            "lines",
+            "",
+            "timelines: of the free cells, those from which a line to 16 columns and 5 rows beyond is free",
+        ),
         Column::time("edit", "µs", "edit, space, index and planner; timelines and frames: mean, else median"),
         Column::time("query", "µs", "timelines: mean time of a path; frames: of all paths of a frame"),
         Column::time("finish", "µs", "timelines: labels made anew, after 40 edits"),

@@ -103,8 +103,8 @@ impl JumpTable {
     /// quicker.
     ///
     /// It leads to the same costs as a new one. Whether it looks for dead ends, and whether it has lists, was
-    /// decided when these were made anew. Its lists have room for those of further edits, a quarter of their words or
-    /// a little more.
+    /// decided when these were made anew. Its lists have room for those of further edits, a quarter of their words
+    /// or a little more.
     ///
     /// # Errors
     /// [`JumpError::Mismatch`] if the change is not from the map of this table to that of the grid graph, or
@@ -126,8 +126,10 @@ impl JumpTable {
             let is_repaired = self.is_repaired || !altered.zones.is_empty();
             return Ok(Self { blocks, lists, is_repaired });
         }
-        let planes = JumpPlanes::new(graph, pruning, interrupt)?;
-        Ok(Self::from_planes(graph, pruning, planes, interrupt)?)
+        let planes = self.blocks.planes_after(graph, pruning, change, interrupt)?;
+        // They may not know all dead ends, those that are made when a table is read do.
+        let is_repaired = planes.reach > 0;
+        Ok(Self { is_repaired, ..Self::from_planes(graph, pruning, planes, interrupt)? })
     }
 
     /// The version of the format of [`to_bytes`](Self::to_bytes).

@@ -54,9 +54,10 @@ impl Case<'_> {
         let row = self.rows.first()?;
         let side = |column: &str| Some(row.number(column)? as u32);
         let setup: Setup = format!("{}:{}", row.text("engine"), self.motion).parse().ok()?;
-        // The choice goes by the size of a map, and by whether it is noise.
-        let is_noise = row.number("corners")? > 0.1;
-        let blocked = |x: u32, y: u32| is_noise && x.is_multiple_of(3) && y.is_multiple_of(3);
+        // The choice goes by the size of a map, by whether it is noise, and by whether obstacles stand alone.
+        let (is_noise, is_alone) = (row.number("corners")? > 0.1, row.number("lines")? > 0.6);
+        let blocked =
+            |x: u32, y: u32| y.is_multiple_of(3) && if is_noise { x.is_multiple_of(3) } else { !is_alone };
         let space = setup.space(&Map::from_fn(side("width")?, side("height")?, blocked).ok()?).ok()?;
         let engine = space.engine_for(Demand::Changing { paths }).ok()?.engine.to_string();
         let row = self.rows.iter().find(|row| row.text("engine") == engine)?;

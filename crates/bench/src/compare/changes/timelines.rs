@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use mediant::{Engine, Index, Map, Motion, Setup, Space};
-use mediant_grid::Vertex;
+use mediant_grid::{DiagonalGap, Rules, Vertex, sight::line_of_sight_under};
 use mediant_moves::K;
 use mediant_oracle::Rng;
 use mediant_report::{Row, stats::median};
@@ -184,6 +184,18 @@ fn corners(map: &Map) -> f64 {
     vertices.filter(is_corner).count() as f64 / (f64::from(width) * f64::from(height))
 }
 
+/// Of the free cells, those from which a straight line to 16 columns and 5 rows beyond is free.
+fn lines(map: &Map) -> f64 {
+    let [width, height] = [map.width(), map.height()].map(|side| side as i32);
+    let cells = (0..height).flat_map(|y| (0..width).map(move |x| Vertex::new(x, y)));
+    let open = Rules::Corner(DiagonalGap::Open);
+    let is_seen = |&Vertex { x, y }: &Vertex| {
+        line_of_sight_under(map.grid(), open, (x, y).into(), (x + 16, y + 5).into())
+    };
+    let free: Vec<Vertex> = cells.filter(|&at| map.is_free(at)).collect();
+    free.iter().filter(|at| is_seen(at)).count() as f64 / free.len().max(1) as f64
+}
+
 /// The rows of a map.
 pub(super) fn measure(name: &str, map: &Map) -> Result<Vec<Row>, CompareError> {
     let cells = map.width() * map.height();
@@ -215,7 +227,10 @@ pub(super) fn measure(name: &str, map: &Map) -> Result<Vec<Row>, CompareError> {
                 }
             }
         }
-        let row = || Part::Timelines.row(name, map).key("motion", text(motion)).with("corners", corners(map));
+        let row = || {
+            let row = Part::Timelines.row(name, map).key("motion", text(motion));
+            row.with("corners", corners(map)).with("lines", lines(map))
+        };
         rows.extend(all.iter().map(|timed| timed.row(row())));
     }
     Ok(rows)
