@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 
 use self::{
     patch::Changed,
-    tile::{DIRECTIONS, RowRun, SIDE, Tile},
+    tile::{DIRECTIONS, RowRuns, SIDE, Tile},
 };
 use crate::{
     Change, Grid, Rectangle, Vertex,
@@ -303,10 +303,14 @@ struct Sets {
 }
 
 impl Sets {
-    fn add(&mut self) -> u32 {
-        let new = self.parents.len() as u32;
-        self.parents.push(new);
-        new
+    /// The number of sets that were added, which is the number of the next one.
+    fn len(&self) -> u32 {
+        self.parents.len() as u32
+    }
+
+    /// Adds so many sets.
+    fn add(&mut self, sets: u32) {
+        self.parents.extend(self.len()..self.len() + sets);
     }
 
     fn root(&mut self, mut of: u32) -> u32 {
@@ -325,30 +329,37 @@ impl Sets {
         a != b
     }
 
-    /// Joins the runs of a row with those that they meet in the row above; runs `reach` columns apart meet.
-    fn join_rows(&mut self, above: &[RowRun], row: &[RowRun], reach: u32) {
-        let mut met = 0;
-        for run in row {
-            // Runs above that end before this one begins do not meet the later ones either.
-            while above.get(met).is_some_and(|other| other.last + reach < run.first) {
-                met += 1;
+    /// Joins the runs of free cells of a row with those of the row above that they meet.
+    fn join_rows(&mut self, above: RowRuns, row: RowRuns, connectivity: Connectivity) {
+        let mut join = |mut cells: u64, shift: i32| {
+            while cells != 0 {
+                let bit = cells.trailing_zeros();
+                self.join(row.set(bit), above.set(bit.wrapping_add_signed(shift)));
+                cells &= cells - 1;
             }
-            for other in above[met..].iter().take_while(|other| other.first <= run.last + reach) {
-                self.join(run.set, other.set);
-            }
+        };
+        // Where they lie along one another, their first cells do.
+        let along = row.free & above.free;
+        join(along & !(along << 1), 0);
+        if connectivity == Connectivity::Eight {
+            // Elsewhere the end of one meets the other's.
+            let ends = row.free & !above.free;
+            join(ends & above.free << 1 & !(row.free << 1), -1);
+            join(ends & above.free >> 1 & !(row.free >> 1), 1);
         }
     }
 
-    /// Replaces each of all numbers, in their order, by that of its set, with the sets numbered from 0 in the
-    /// order of their roots. Returns the number of sets.
-    fn rename(mut self, numbers: &mut [u32]) -> u32 {
+    /// For each number that of its set, with the sets numbered from 0 in the order of their roots; and the number
+    /// of sets.
+    fn names(mut self) -> (Vec<u32>, u32) {
         let mut count = 0;
-        for i in 0..numbers.len() {
-            // A root comes before all others of its set, so its name is known when they need it.
-            let root = self.root(i as u32) as usize;
-            numbers[i] = if root == i { count } else { numbers[root] };
-            count += u32::from(root == i);
+        for i in 0..self.parents.len() {
+            // A root comes before all others of its set, so its name is known when they need it. All numbers
+            // before this one are names by now, and those that stand for others come before it.
+            let parent = self.parents[i] as usize;
+            self.parents[i] = if parent == i { count } else { self.parents[parent] };
+            count += u32::from(parent == i);
         }
-        count
+        (self.parents, count)
     }
 }

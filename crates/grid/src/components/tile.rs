@@ -39,12 +39,20 @@ enum Side {
     Bottom,
 }
 
-/// A run of free cells in one row: columns `first` to `last`.
-#[derive(Clone, Copy)]
-pub(super) struct RowRun {
-    pub(super) first: u32,
-    pub(super) last: u32,
-    pub(super) set: u32,
+/// The runs of free cells of a row. Each is a set, and their numbers follow one another.
+#[derive(Clone, Copy, Default)]
+pub(super) struct RowRuns {
+    pub(super) free: u64,
+    first: u32,
+}
+
+impl RowRuns {
+    /// The number of the set of a free cell.
+    pub(super) const fn set(self, bit: u32) -> u32 {
+        // The runs that begin up to the cell; its own is the last of them.
+        let begun = self.free & !(self.free << 1) & !0 >> (63 - bit);
+        self.first + begun.count_ones() - 1
+    }
 }
 
 impl Tile {
@@ -55,23 +63,14 @@ impl Tile {
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let (mut first, mut border, mut height) = ([0; SIDE + 1], [0; 4], 0);
-        let (mut sets, mut labels) = (Sets::default(), Vec::new());
-        let (mut above, mut row) = (Vec::new(), Vec::new());
+        let (mut sets, mut above) = (Sets::default(), RowRuns::default());
         for word in words {
             interrupt.check(DURING)?;
-            first[height] = labels.len() as u16;
-            let mut free = word;
-            while free != 0 {
-                let bit = free.trailing_zeros();
-                let length = (free >> bit).trailing_ones();
-                let set = sets.add();
-                row.push(RowRun { first: bit, last: bit + length - 1, set });
-                labels.push(set);
-                free &= (!0_u64).checked_shl(bit + length).unwrap_or(0);
-            }
-            sets.join_rows(&above, &row, connectivity.reach());
-            std::mem::swap(&mut above, &mut row);
-            row.clear();
+            let row = RowRuns { free: word, first: sets.len() };
+            first[height] = row.first as u16;
+            sets.add((word & !(word << 1)).count_ones());
+            sets.join_rows(above, row, connectivity);
+            above = row;
             if height == 0 {
                 border[Side::Top as usize] = word;
             }
@@ -80,8 +79,8 @@ impl Tile {
             border[Side::Right as usize] |= word >> 63 << height;
             height += 1;
         }
-        first[height..].fill(labels.len() as u16);
-        let regions = sets.rename(&mut labels);
+        first[height..].fill(sets.len() as u16);
+        let (labels, regions) = sets.names();
         Ok(Self {
             first,
             labels: labels.into(),
@@ -231,9 +230,7 @@ impl Tile {
 
     /// The region of the free cell in column `bit` of a row, whose free cells are `free`.
     pub(super) fn of(&self, row: usize, bit: u32, free: u64) -> u32 {
-        // The runs that begin up to the cell; its own is the last of them.
-        let begun = free & !(free << 1) & (!0 >> (63 - bit));
-        self.labels[usize::from(self.first[row]) + begun.count_ones() as usize - 1]
+        self.labels[RowRuns { free, first: self.first[row].into() }.set(bit) as usize]
     }
 
     pub(super) fn memory_bytes(&self) -> usize {
