@@ -7,8 +7,7 @@ use crate::{
     arc::UpwardArc,
     bends::BendRule,
     chunks::in_chunks,
-    codec::LEAST_CODE,
-    contract::{ContractedGraph, Contraction, SubgoalGeometry},
+    contract::{ContractedGraph, Contraction, Decision, SubgoalGeometry},
     error::SubgoalError,
     graph::{MAX_ARCS, SubgoalGraph},
     hierarchy::Hierarchy,
@@ -40,11 +39,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
         progress: &(impl Fn(Progress) + Sync),
         interrupt: &Interrupt,
     ) -> Result<Self, SubgoalError> {
-        let hierarchy = match hierarchy {
-            // The bytes of a graph have no code for so many.
-            Hierarchy::Levels(levels) if levels.get() >= LEAST_CODE => Hierarchy::AllLevels,
-            other => other,
-        };
+        let hierarchy = hierarchy.with_a_code();
         let ground = Ground::new(space, k, hierarchy, interrupt)?;
         let contracted = ground.contracted(space, hierarchy, progress, interrupt)?;
         ground.into_graph(space, hierarchy, &contracted, interrupt)
@@ -93,21 +88,36 @@ impl<P: SubgoalPlacement> Ground<P> {
         progress: &(impl Fn(Progress) + Sync),
         interrupt: &Interrupt,
     ) -> Result<ContractedGraph, Interrupted> {
+        let edges = self.edges(space, progress, interrupt)?;
+        self.contracted_from(&edges, (space, hierarchy), &mut |_| {}, progress, interrupt)
+    }
+
+    /// Every edge, from one of its ends.
+    pub(crate) fn edges(
+        &self,
+        space: &FreeSpace<P>,
+        progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
+    ) -> Result<Vec<(u32, u32)>, Interrupted> {
+        let report = |done| progress(Progress { stage: Stage::Edges, done, total: self.subgoals.len() });
+        find_edges(self.context(space), &report, interrupt)
+    }
+
+    /// Builds a hierarchy on the edges. Of levels it tells what was decided.
+    pub(crate) fn contracted_from(
+        &self,
+        edges: &[(u32, u32)],
+        (space, hierarchy): (&FreeSpace<P>, Hierarchy),
+        decided: &mut dyn FnMut(Decision<'_>),
+        progress: &(impl Fn(Progress) + Sync),
+        interrupt: &Interrupt,
+    ) -> Result<ContractedGraph, Interrupted> {
         let (context, total) = (self.context(space), self.subgoals.len());
-        let report = |done| progress(Progress { stage: Stage::Edges, done, total });
-        let edges = find_edges(context, &report, interrupt)?;
-        let mut contraction = Contraction::new(total, &edges, context, interrupt.clone())?;
+        let mut contraction = Contraction::new(total, edges, context, interrupt.clone())?;
         let mut report = |done| progress(Progress { stage: Stage::Hierarchy, done, total });
-        match hierarchy {
-            Hierarchy::Contracted => contraction.contract_by_priority(&mut report)?,
-            Hierarchy::AllLevels => while contraction.contract_level(&mut report)? {},
-            Hierarchy::Levels(levels) => {
-                for _ in 1..levels.get() {
-                    if !contraction.contract_level(&mut report)? {
-                        break;
-                    }
-                }
-            }
+        match hierarchy.levels() {
+            None => contraction.contract_by_priority(&mut report)?,
+            Some(levels) => contraction.contract_levels(levels - 1, &mut report, decided)?,
         }
         Ok(contraction.finish())
     }
@@ -119,16 +129,24 @@ impl<P: SubgoalPlacement> Ground<P> {
         contracted: &ContractedGraph,
         interrupt: &Interrupt,
     ) -> Result<SubgoalGraph<P>, SubgoalError> {
-        let Self { subgoals, metric, tables, k, criterion } = self;
         let count = contracted.arcs.iter().map(Vec::len).sum();
         if count > MAX_ARCS as usize {
             return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
         }
-        let (offsets, arcs) = pack(contracted);
+        let packed = pack(contracted);
+        self.graph(space, hierarchy, packed).with_costs(space, interrupt)
+    }
+
+    /// The graph with these offsets and arcs.
+    pub(crate) fn graph(
+        self,
+        space: &FreeSpace<P>,
+        hierarchy: Hierarchy,
+        (offsets, arcs): (Box<[u32]>, Box<[UpwardArc]>),
+    ) -> SubgoalGraph<P> {
+        let Self { subgoals, metric, tables, k, criterion } = self;
         let identity = Identity { k: Some(k), ..space.identity() };
-        let graph =
-            SubgoalGraph { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs };
-        graph.with_costs(space, interrupt)
+        SubgoalGraph { identity, subgoals, tables, metric, k, criterion, hierarchy, offsets, arcs }
     }
 }
 

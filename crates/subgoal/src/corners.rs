@@ -8,6 +8,7 @@ use mediant_moves::{Cost, K};
 
 use crate::{
     bends::{ConvexCorner, SideDepartures},
+    bounds::Bounds,
     direct_reachability::DirectFilter,
     error::SubgoalError,
     hierarchy::Hierarchy,
@@ -92,7 +93,7 @@ impl EdgeFinder for Corners {
                 let tangent = if same.get(from.x, from.y) { 1 } else { -1 };
                 Quadrants::only(tangent, 1).union(Quadrants::LINE)
             }
-            (EdgeKind::Graph, None) => Quadrants::only(1, 1).union(Quadrants::only(-1, 1)),
+            (EdgeKind::Graph, None) => BELOW,
             // A path leaves a closed gap through the quadrant of the vertex's own cell.
             (EdgeKind::Query, _) if space.is_closed_gap(from) => Quadrants::only(1, 1),
             (EdgeKind::Query, _) => Quadrants::ALL,
@@ -185,6 +186,22 @@ impl EdgeFinder for Corners {
         }
     }
 }
+
+/// A box that holds all that decides which edges of the graph lead from a subgoal to larger numbers: where
+/// the cells around each of its vertices are the same on another map, so are these edges and their order.
+/// For edges between directly reachable subgoals.
+pub(crate) fn edge_bounds(
+    context: BuildContext<'_, Corners>,
+    scratch: &mut CornerScratch,
+    from: Vertex,
+) -> Bounds {
+    let BuildContext { space, subgoals, tables, .. } = context;
+    let sweep = &mut scratch.sweep;
+    Bounds::around(sweep.bounds(space, &tables.row_summary, subgoals.marks(), from, BELOW))
+}
+
+/// The quadrants in which subgoals have larger numbers.
+const BELOW: Quadrants = Quadrants::only(1, 1).union(Quadrants::only(-1, 1));
 
 /// Some of the convex corners of obstacles: `some` is handed which of 64 vertices are such corners, and which
 /// of the cells to the north-west, north-east, south-west and south-east of each are blocked.

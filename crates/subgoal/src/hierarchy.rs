@@ -2,6 +2,8 @@
 
 use std::num::NonZeroU32;
 
+use crate::codec::LEAST_CODE;
+
 /// Which subgoals a search can skip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Hierarchy {
@@ -14,4 +16,23 @@ pub enum Hierarchy {
     Levels(NonZeroU32),
     /// As many levels as differ.
     AllLevels,
+}
+
+impl Hierarchy {
+    /// The same, or all levels for so many that the bytes of a graph have no code for them.
+    pub(crate) fn with_a_code(self) -> Self {
+        match self {
+            Self::Levels(levels) if levels.get() >= LEAST_CODE => Self::AllLevels,
+            other => other,
+        }
+    }
+
+    /// The most levels; `None` for a contraction hierarchy.
+    pub(crate) const fn levels(self) -> Option<u32> {
+        match self {
+            Self::Contracted => None,
+            Self::Levels(levels) => Some(levels.get()),
+            Self::AllLevels => Some(u32::MAX),
+        }
+    }
 }

@@ -86,6 +86,7 @@
 
 mod arc;
 mod bends;
+mod bounds;
 mod build;
 mod centers;
 mod chunks;
@@ -102,6 +103,7 @@ mod error;
 mod graph;
 mod hierarchy;
 mod labels;
+mod levels;
 mod parts;
 mod placement;
 mod planner;
@@ -119,6 +121,7 @@ pub use error::SubgoalError;
 pub use graph::SubgoalGraph;
 pub use hierarchy::Hierarchy;
 pub use labels::{Goals, HubLabelSearch, HubLabels};
+pub use levels::LevelRecord;
 pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;
 pub use prepared::PreparedSubgoals;

@@ -8,7 +8,7 @@ use super::{
     row_summary::RowSummary,
     runs::row_ahead,
     targets::{Quadrants, Targets},
-    visitor::{RunsOf, TargetsOf, Visitor},
+    visitor::{BoundsOf, RunsOf, TargetsOf, Visitor},
 };
 
 /// Finds the corners of obstacles that a vertex sees. It holds the scratch memory of [`seen`](Self::seen).
@@ -133,6 +133,32 @@ impl VisibilitySweep {
         }
     }
 
+    /// The corners of a box of vertices such that [`seen`](Self::seen), asked with the same arguments, finds
+    /// the same in the same order on every map that has the same cells around each vertex of the box, and the
+    /// same targets there.
+    #[must_use]
+    pub fn bounds<'m>(
+        &mut self,
+        space: &'m FreeSpace<Corners>,
+        summary: &'m RowSummary,
+        marks: impl Into<Targets<'m>>,
+        from: Vertex,
+        quadrants: Quadrants,
+    ) -> [Vertex; 2] {
+        let mut bounds = BoundsOf { low: from, high: from };
+        if space.is_free(from) {
+            self.sweep(space, summary, from, quadrants, &mut bounds);
+            let marks = marks.into();
+            for right in [1, -1] {
+                if quadrants.contains_horizontal(right) {
+                    let (x, _) = along_line(space, marks, from, right);
+                    bounds.add(from.y, x, x);
+                }
+            }
+        }
+        [bounds.low, bounds.high]
+    }
+
     /// Follows all intervals above and below a vertex.
     fn sweep<'m>(
         &mut self,
@@ -228,6 +254,7 @@ impl<'t> Half<'t> {
             if ahead.first_blocked(first, last) == last {
                 visitor.between_free_cells(piece, self.down, line);
                 let (start, end) = (ahead.run_start(first, low), ahead.first_blocked(last, high));
+                visitor.looks_at(piece.line, start, end);
                 if low < start {
                     left = Edge::wall(start);
                 }
@@ -249,6 +276,7 @@ impl<'t> Half<'t> {
                     }
                     let start = if inside > first { inside } else { ahead.run_start(inside, low) };
                     let end = ahead.first_blocked(inside, high);
+                    visitor.looks_at(piece.line, start, end);
                     if let Some(part) = self.through(piece, start, end) {
                         match goes_on {
                             None => goes_on = Some(part),

@@ -23,6 +23,11 @@ pub(super) trait Visitor<'m> {
 
     /// Intervals of this and further lines, on to the next band of rows; all cells on the way are free.
     fn band(&mut self, piece: Piece, down: i32, line: Self::Line);
+
+    /// On the way to the next line the columns of cells from `first` to `end`, and those beside them, are
+    /// looked at.
+    #[inline]
+    fn looks_at(&mut self, _line: i32, _first: i32, _end: i32) {}
 }
 
 /// Looks for targets.
@@ -118,6 +123,45 @@ impl<F: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F> {
             let [left, right] = [piece.left, piece.right].map(|edge| edge.after(lines));
             self.between_free_cells(Piece { line: piece.line + down * lines, left, right }, down, ());
         }
+    }
+}
+
+/// Looks for the box around all that is looked at.
+pub(super) struct BoundsOf {
+    pub(super) low: Vertex,
+    pub(super) high: Vertex,
+}
+
+impl BoundsOf {
+    /// Takes in the vertices of a line from column `first` to `last`.
+    pub(super) fn add(&mut self, line: i32, first: i32, last: i32) {
+        let Self { low, high } = self;
+        *low = Vertex::new(low.x.min(first), low.y.min(line));
+        *high = Vertex::new(high.x.max(last), high.y.max(line));
+    }
+}
+
+impl Visitor<'_> for BoundsOf {
+    type Line = ();
+
+    fn line(&self, _: i32) {}
+
+    fn below((): (), _: i32) {}
+
+    fn between_free_cells(&mut self, piece: Piece, _: i32, (): ()) {
+        self.add(piece.line, piece.left.end.here.floor(), piece.right.end.here.ceil());
+    }
+
+    fn interval(&mut self, piece: Piece, down: i32, (): ()) {
+        self.between_free_cells(piece, down, ());
+    }
+
+    fn band(&mut self, piece: Piece, down: i32, (): ()) {
+        self.between_free_cells(piece, down, ());
+    }
+
+    fn looks_at(&mut self, line: i32, first: i32, end: i32) {
+        self.add(line, first, end);
     }
 }
 

@@ -4,10 +4,13 @@ use std::{num::NonZeroU32, sync::Arc};
 
 use mediant_grid::{Corners, FreeSpace, Interrupt, Interrupted};
 use mediant_moves::K;
-use mediant_subgoal::{SubgoalGraph, SubgoalTheta};
+use mediant_subgoal::{LevelRecord, SubgoalGraph, SubgoalTheta};
 
-use super::{Boxed, EngineIndex, Source, boxed, check_counted, check_levels, following, with_options};
+use super::{
+    Boxed, EngineIndex, Source, boxed, check_counted, check_levels, following, shared, with_options,
+};
 use crate::{
+    change::Change,
     configured::ConfiguredEngine,
     engine::Engine,
     error::Error,
@@ -17,6 +20,7 @@ use crate::{
         table::LEVELS,
     },
     setup_error::SetupError,
+    space::PlacementOfSpace as _,
 };
 
 /// Options of Sub-Theta*.
@@ -48,6 +52,8 @@ impl SubgoalThetaOptions {
 pub(super) struct SubgoalThetaIndex {
     space: Arc<FreeSpace<Corners>>,
     graph: Arc<SubgoalGraph<Corners>>,
+    /// By which the graph follows edits; `None` for one that was read.
+    record: Option<Arc<LevelRecord>>,
 }
 
 impl SubgoalThetaIndex {
@@ -57,27 +63,27 @@ impl SubgoalThetaIndex {
         space: &Arc<FreeSpace<Corners>>,
         source: Source<'_>,
     ) -> Result<Self, Error> {
-        let graph = match source.bytes {
-            Some(bytes) => SubgoalGraph::from_bytes_interruptible(space, k, bytes, source.interrupt)?,
+        let (graph, record) = match source.bytes {
+            Some(bytes) => (SubgoalGraph::from_bytes_interruptible(space, k, bytes, source.interrupt)?, None),
             None => {
                 let hierarchy = own.levels().hierarchy().unwrap_or_default();
-                SubgoalGraph::with_progress(space, k, hierarchy, &source.progress, source.interrupt)?
+                SubgoalGraph::with_record(space, k, hierarchy, &source.progress, source.interrupt)?
             }
         };
-        Self::of(own, space, Arc::new(graph))
+        Self::of(own, space, (Arc::new(graph), record.map(Arc::new)))
     }
 
     /// Checks that the graph has the levels that the options name; it needs levels in any case.
     fn of(
         own: SubgoalThetaOptions,
         space: &Arc<FreeSpace<Corners>>,
-        graph: Arc<SubgoalGraph<Corners>>,
+        (graph, record): (Arc<SubgoalGraph<Corners>>, Option<Arc<LevelRecord>>),
     ) -> Result<Self, Error> {
         let found = Levels::from(graph.hierarchy());
         if own.levels.is_some() || found == Levels::Contracted {
             check_levels(Some(own.levels()), Some(found))?;
         }
-        Ok(Self { space: Arc::clone(space), graph })
+        Ok(Self { space: Arc::clone(space), graph, record })
     }
 }
 
@@ -97,15 +103,29 @@ impl EngineIndex for SubgoalThetaIndex {
 
     fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
         let ConfiguredEngine::SubgoalTheta(own) = engine else { return Ok(None) };
-        with_options(Self::of(own, &self.space, Arc::clone(&self.graph)))
+        with_options(Self::of(own, &self.space, (Arc::clone(&self.graph), self.record.clone())))
     }
 
     fn memory_bytes(&self) -> usize {
-        self.graph.memory_bytes()
+        self.graph.memory_bytes() + self.record.as_ref().map_or(0, |record| record.memory_bytes())
     }
 
     fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
         self.graph.to_bytes_interruptible(interrupt).map(Some)
+    }
+
+    /// The same bytes as those of a new index.
+    fn repaired(
+        &self,
+        change: &Change,
+        interrupt: &Interrupt,
+    ) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let Some(record) = &self.record else { return Ok(None) };
+        let space = Arc::clone(&Corners::layers(change.after(), Engine::SubgoalTheta)?.free);
+        let Some((graph, record)) = record.repaired(&self.graph, &space, change.of_grid(), interrupt)? else {
+            return Ok(None);
+        };
+        shared(Ok(Self { space, graph: Arc::new(graph), record: Some(Arc::new(record)) })).map(Some)
     }
 
     fn as_prepared(&self) -> Option<ConfiguredEngine> {

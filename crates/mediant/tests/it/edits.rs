@@ -176,11 +176,6 @@ fn paths_on_edited_maps_are_those_of_new_maps() {
     });
 }
 
-/// Whether the index of a setup follows an edit.
-fn is_repaired(setup: Setup) -> bool {
-    setup.engine.kind() != Engine::SubgoalTheta
-}
-
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
 /// large, and says how it came about. That of Anya may leave out less, JPS+ has room for more, and subgoals
 /// are those of the map before, but paths cost the same.
@@ -214,12 +209,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let anew = setup.prepare(&space).expect("as before");
                 let costs_alone =
                     matches!(setup.engine.kind(), Engine::Anya | Engine::JpsPlus | Engine::Subgoal);
-                let is_repaired = is_repaired(setup);
-                let origin = match (is_same, is_repaired) {
-                    (true, _) => Origin::Unchanged,
-                    (false, true) => Origin::Repaired,
-                    (false, false) => Origin::Prepared,
-                };
+                let origin = if is_same { Origin::Unchanged } else { Origin::Repaired };
                 let same = index.repair(&Change::new(index.space())).expect("the same space");
                 assert_eq!((same.origin(), same.to_bytes().ok()), (Origin::Unchanged, index.to_bytes().ok()));
                 assert_eq!((index.setup(), index.origin()), (setup, origin));

@@ -56,7 +56,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         limit: u64,
     ) -> Result<Evaluation, Interrupted> {
         let before = finder.witness.arcs_scanned;
-        let shortcuts = self.find_shortcuts(finder, id, limit)?;
+        let (shortcuts, _) = self.find_shortcuts(finder, id, limit)?;
         Ok(Evaluation { id, shortcuts, arcs_scanned: finder.witness.arcs_scanned - before })
     }
 }

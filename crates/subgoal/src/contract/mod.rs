@@ -18,7 +18,7 @@ use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 pub(crate) use self::overlay_arc::OverlayArc;
 
 use self::witness::{WitnessGraph, WitnessSearch};
-use crate::{arc::NONE, bends::BendRule};
+use crate::{arc::NONE, bends::BendRule, bounds::Bounds};
 
 /// The geometry of the subgoals that are contracted.
 pub(crate) trait SubgoalGeometry {
@@ -48,9 +48,30 @@ pub(crate) struct Contraction<G> {
 /// The stage that an interrupted call names.
 const DURING: &str = "contracting subgoals";
 
+/// The graph as it is while subgoals are contracted.
+pub(crate) trait Overlay {
+    /// The arcs of a subgoal that is not contracted.
+    fn around(&mut self, id: u32) -> &[OverlayArc];
+}
+
+/// The arcs of all subgoals, and the box around those that were looked at.
+struct AllArcs<'c, G> {
+    arcs: &'c [Vec<OverlayArc>],
+    geometry: &'c G,
+    read: Bounds,
+}
+
+impl<G: SubgoalGeometry> Overlay for AllArcs<'_, G> {
+    fn around(&mut self, id: u32) -> &[OverlayArc] {
+        self.read.add(self.geometry.vertex(id));
+        &self.arcs[id as usize]
+    }
+}
+
 /// Scratch memory for finding shortcuts.
 #[derive(Default)]
-struct ShortcutFinder {
+pub(crate) struct ShortcutFinder {
+    around: Vec<OverlayArc>,
     witness: WitnessSearch,
     /// The displacements along the first edges of a subgoal's arcs.
     steps: Vec<Vector>,
@@ -59,7 +80,11 @@ struct ShortcutFinder {
 }
 
 /// The shortcuts that contracting a subgoal takes: pairs of its arcs, by their numbers.
-type Shortcuts = Vec<(u32, u32)>;
+pub(crate) type Shortcuts = Vec<(u32, u32)>;
+
+/// A subgoal that a level was asked about: the level, counted from 0, its number, the box around what was
+/// looked at, and its shortcuts if it was contracted.
+pub(crate) type Decision<'c> = (u32, u32, Bounds, Option<&'c Shortcuts>);
 
 /// The graph after contraction.
 pub(crate) struct ContractedGraph {
@@ -100,10 +125,29 @@ impl<G: SubgoalGeometry> Contraction<G> {
         }
     }
 
+    /// Makes as many levels above the first one, or all that differ.
+    pub(crate) fn contract_levels(
+        &mut self,
+        most: u32,
+        progress: &mut dyn FnMut(usize),
+        decided: &mut dyn FnMut(Decision<'_>),
+    ) -> Result<(), Interrupted> {
+        for level in 0..most {
+            if !self.contract_level(progress, &mut |id, read, made| decided((level, id, read, made)))? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
     /// Makes the next level. In the order of their numbers, contracts all subgoals that need no shortcut, or
     /// only shortcuts between subgoals that are h_k-reachable from one another. Returns whether there was
     /// one.
-    pub(crate) fn contract_level(&mut self, progress: &mut dyn FnMut(usize)) -> Result<bool, Interrupted> {
+    fn contract_level(
+        &mut self,
+        progress: &mut dyn FnMut(usize),
+        decided: &mut dyn FnMut(u32, Bounds, Option<&Shortcuts>),
+    ) -> Result<bool, Interrupted> {
         let mut finder = ShortcutFinder::default();
         let mut any = false;
         for id in 0..self.arcs.len() as u32 {
@@ -111,8 +155,10 @@ impl<G: SubgoalGeometry> Contraction<G> {
             if self.contracted[id as usize] {
                 continue;
             }
-            let shortcuts = self.find_shortcuts(&mut finder, id, u64::MAX)?;
-            if self.shortcuts_are_reachable(id, &shortcuts) {
+            let (shortcuts, read) = self.find_shortcuts(&mut finder, id, u64::MAX)?;
+            let is_contracted = are_reachable(&self.geometry, &self.arcs[id as usize], &shortcuts);
+            decided(id, read, is_contracted.then_some(&shortcuts));
+            if is_contracted {
                 self.contract(id, &shortcuts);
                 any = true;
             }
@@ -120,30 +166,63 @@ impl<G: SubgoalGeometry> Contraction<G> {
         Ok(any)
     }
 
-    fn shortcuts_are_reachable(&self, id: u32, shortcuts: &Shortcuts) -> bool {
-        let around = &self.arcs[id as usize];
-        shortcuts.iter().all(|&(p, q)| {
-            let (p, q) = (around[p as usize], around[q as usize]);
-            p.cost + q.cost == self.geometry.distance(p.to, q.to)
-        })
-    }
-
-    /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far
-    /// as witness searches that scan `limit` arcs each can tell.
+    /// The shortcuts of a subgoal, and the box around what was looked at.
     fn find_shortcuts(
         &self,
         finder: &mut ShortcutFinder,
         id: u32,
         limit: u64,
+    ) -> Result<(Shortcuts, Bounds), Interrupted> {
+        let Self { arcs, geometry, in_round, interrupt, .. } = self;
+        let mut all = AllArcs { arcs, geometry, read: Bounds::EMPTY };
+        let shortcuts =
+            ShortcutRule { geometry, in_round, interrupt, limit }.shortcuts(&mut all, finder, id)?;
+        Ok((shortcuts, all.read))
+    }
+
+    /// Contracts a subgoal: removes the arcs that lead to it, and adds its shortcuts.
+    fn contract(&mut self, id: u32, shortcuts: &Shortcuts) {
+        let mut around = std::mem::take(&mut self.arcs[id as usize]);
+        around.shrink_to_fit();
+        for arc in &around {
+            remove(&mut self.arcs[arc.to as usize], id);
+        }
+        for (from, arc) in shortcuts.iter().flat_map(|&pair| both_ways(id, &around, pair)) {
+            add(&mut self.arcs[from as usize], arc);
+        }
+        self.arcs[id as usize] = around;
+        self.contracted[id as usize] = true;
+        self.order.push(id);
+    }
+}
+
+/// How the shortcuts of a subgoal are found.
+pub(crate) struct ShortcutRule<'c, G> {
+    pub(crate) geometry: &'c G,
+    /// The subgoals of the current round.
+    pub(crate) in_round: &'c [bool],
+    pub(crate) interrupt: &'c Interrupt,
+    /// The arcs that a witness search scans.
+    pub(crate) limit: u64,
+}
+
+impl<G: SubgoalGeometry> ShortcutRule<'_, G> {
+    /// Finds the pairs of neighbors between which every path is longer than the one over the subgoal, as far
+    /// as witness searches that scan `limit` arcs each can tell.
+    pub(crate) fn shortcuts(
+        &self,
+        overlay: &mut impl Overlay,
+        finder: &mut ShortcutFinder,
+        id: u32,
     ) -> Result<Shortcuts, Interrupted> {
-        let Self { arcs, geometry, in_round, .. } = self;
-        let ShortcutFinder { witness, steps, onward } = finder;
+        let &Self { geometry, in_round, interrupt, limit } = self;
+        let ShortcutFinder { around, witness, steps, onward } = finder;
         let mut shortcuts = Vec::new();
-        let around = &arcs[id as usize];
+        around.clear();
+        around.extend_from_slice(overlay.around(id));
         let (at, bends) = (geometry.vertex(id), geometry.bends(id));
         steps.clear();
         steps.extend(around.iter().map(|arc| at.to(geometry.vertex(arc.first))));
-        let graph = WitnessGraph { arcs, in_round, without: id };
         for (i, p) in around.iter().enumerate() {
             let departures = bends.map(|bends| bends.after(-steps[i]));
             let may_pass = |step: Vector| departures.is_none_or(|departures| departures.allows(step));
@@ -153,43 +232,51 @@ impl<G: SubgoalGeometry> Contraction<G> {
                 continue;
             }
             let targets = onward.iter().map(|&j| &around[j as usize]);
-            self.interrupt.check(DURING)?;
-            witness.start(arcs.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)));
-            witness.run(&graph, limit, |from, to| geometry.distance(from, to));
+            interrupt.check(DURING)?;
+            witness.start(in_round.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)));
+            let graph = WitnessGraph { overlay, in_round, without: id };
+            witness.run(graph, limit, |from, to| geometry.distance(from, to));
             let needed = onward.iter().filter(|&&j| !witness.has_witness(around[j as usize].to));
             shortcuts.extend(needed.map(|&j| (i as u32, j)));
         }
         Ok(shortcuts)
     }
+}
 
-    /// Contracts a subgoal: removes the arcs that lead to it, and adds its shortcuts.
-    fn contract(&mut self, id: u32, shortcuts: &Shortcuts) {
-        let mut around = std::mem::take(&mut self.arcs[id as usize]);
-        around.shrink_to_fit();
-        for arc in &around {
-            let back = &mut self.arcs[arc.to as usize];
-            if let Some(number) = back.iter().position(|back| back.to == id) {
-                back.swap_remove(number);
-            }
-        }
-        for &(p, q) in shortcuts {
-            let (p, q) = (around[p as usize], around[q as usize]);
-            let cost = p.cost + q.cost;
-            self.add(p.to, OverlayArc { cost, to: q.to, middle: id, first: p.last, last: q.last });
-            self.add(q.to, OverlayArc { cost, to: p.to, middle: id, first: q.last, last: p.last });
-        }
-        self.arcs[id as usize] = around;
-        self.contracted[id as usize] = true;
-        self.order.push(id);
+/// Whether the ends of each shortcut are h_k-reachable from one another.
+pub(crate) fn are_reachable(
+    geometry: &impl SubgoalGeometry,
+    around: &[OverlayArc],
+    shortcuts: &Shortcuts,
+) -> bool {
+    shortcuts.iter().all(|&(p, q)| {
+        let (p, q) = (around[p as usize], around[q as usize]);
+        p.cost + q.cost == geometry.distance(p.to, q.to)
+    })
+}
+
+/// A shortcut over a subgoal as an arc from each of its ends.
+pub(crate) fn both_ways(id: u32, around: &[OverlayArc], (p, q): (u32, u32)) -> [(u32, OverlayArc); 2] {
+    let (p, q) = (around[p as usize], around[q as usize]);
+    let cost = p.cost + q.cost;
+    [
+        (p.to, OverlayArc { cost, to: q.to, middle: id, first: p.last, last: q.last }),
+        (q.to, OverlayArc { cost, to: p.to, middle: id, first: q.last, last: p.last }),
+    ]
+}
+
+/// Removes the arc to a subgoal.
+pub(crate) fn remove(arcs: &mut Vec<OverlayArc>, id: u32) {
+    if let Some(number) = arcs.iter().position(|arc| arc.to == id) {
+        arcs.swap_remove(number);
     }
+}
 
-    /// Adds a shortcut, unless there is an arc that costs no more; it replaces one that costs more.
-    fn add(&mut self, from: u32, arc: OverlayArc) {
-        let arcs = &mut self.arcs[from as usize];
-        match arcs.iter_mut().find(|known| known.to == arc.to) {
-            Some(known) if known.cost <= arc.cost => {}
-            Some(known) => *known = arc,
-            None => arcs.push(arc),
-        }
+/// Adds a shortcut, unless there is an arc that costs no more; it replaces one that costs more.
+pub(crate) fn add(arcs: &mut Vec<OverlayArc>, arc: OverlayArc) {
+    match arcs.iter_mut().find(|known| known.to == arc.to) {
+        Some(known) if known.cost <= arc.cost => {}
+        Some(known) => *known = arc,
+        None => arcs.push(arc),
     }
 }

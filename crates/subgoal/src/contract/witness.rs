@@ -2,7 +2,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use super::overlay_arc::OverlayArc;
+use super::Overlay;
 
 /// Searches for paths that avoid a subgoal: witnesses that it needs no shortcut.
 #[derive(Default)]
@@ -32,19 +32,12 @@ struct WitnessNode {
 }
 
 /// The graph of a witness search.
-pub(super) struct WitnessGraph<'c> {
-    pub(super) arcs: &'c [Vec<OverlayArc>],
+pub(super) struct WitnessGraph<'c, O> {
+    pub(super) overlay: &'c mut O,
     /// The subgoals of the current round.
     pub(super) in_round: &'c [bool],
     /// The subgoal that witnesses avoid.
     pub(super) without: u32,
-}
-
-impl WitnessGraph<'_> {
-    /// The cost of an arc; one more if it leads to a subgoal that is contracted before the one to avoid.
-    fn cost(&self, arc: &OverlayArc) -> u128 {
-        arc.cost + u128::from(arc.to < self.without && self.in_round[arc.to as usize])
-    }
 }
 
 impl WitnessSearch {
@@ -83,7 +76,12 @@ impl WitnessSearch {
 
     /// Dijkstra's algorithm, until every target has a witness or `limit` arcs are scanned. Skips subgoals
     /// from which the straight line to every target that is left, at the cost `distance`, is too long.
-    pub(super) fn run(&mut self, graph: &WitnessGraph<'_>, limit: u64, distance: impl Fn(u32, u32) -> u128) {
+    pub(super) fn run(
+        &mut self,
+        WitnessGraph { overlay, in_round, without }: WitnessGraph<'_, impl Overlay>,
+        limit: u64,
+        distance: impl Fn(u32, u32) -> u128,
+    ) {
         let limit = self.arcs_scanned.saturating_add(limit);
         while self.left > 0 && self.arcs_scanned < limit {
             let Some(Reverse((cost, at))) = self.queue.pop() else { return };
@@ -102,11 +100,12 @@ impl WitnessSearch {
             if cost > 0 && !self.targets.iter().any(|&(to, bound)| cost + distance(at, to) <= bound) {
                 continue;
             }
-            let around = &graph.arcs[at as usize];
+            let around = overlay.around(at);
             self.arcs_scanned += around.len() as u64;
             for arc in around {
-                let cost = cost + graph.cost(arc);
-                if arc.to != graph.without && cost <= self.max_cost {
+                // One more for a subgoal that is contracted before the one to avoid.
+                let cost = cost + arc.cost + u128::from(arc.to < without && in_round[arc.to as usize]);
+                if arc.to != without && cost <= self.max_cost {
                     self.reach(arc.to, cost);
                 }
             }
