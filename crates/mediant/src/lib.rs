@@ -108,7 +108,7 @@
 //! | `anya` | dead ends, and rooms behind single doors | costs |
 //! | `hpa`, `chpa` | clusters, segments | bytes |
 //! | `subgoal` | where they prove the answer, labels or graph of the map before; elsewhere another engine | costs |
-//! | `subgoal-theta` | nothing: it is prepared anew | bytes |
+//! | `subgoal-theta` | the edges and levels of subgoals that looked at what changed; all are numbered anew | bytes |
 //!
 //! Labels of the map before prove 94 % of the answers and more after an edit of 10 × 10 cells (the table in
 //! `docs/measurements/subgoal.md`). [`Index::finish`] makes them anew, where and when you want it: on another

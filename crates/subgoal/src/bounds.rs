@@ -36,6 +36,13 @@ impl Bounds {
         }
     }
 
+    /// The first and the last tile along both axes, if tiles have a side of 2 to the power of `shift`; `None`
+    /// for an empty box.
+    pub(crate) fn tiles(&self, shift: u32) -> Option<([usize; 2], [usize; 2])> {
+        let tile = |at: [u16; 2]| at.map(|at| usize::from(at >> shift));
+        (self.low[0] <= self.high[0]).then(|| (tile(self.low), tile(self.high)))
+    }
+
     /// Whether a vertex lies in the box.
     #[inline]
     pub(crate) fn contains(&self, at: Vertex) -> bool {

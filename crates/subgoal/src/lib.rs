@@ -79,8 +79,9 @@
 //!
 //! # What this crate does not do
 //!
-//! It reads and writes no files: a graph is converted to bytes and back. It does not repair graphs and labels
-//! when the map changes; but those of an [`EarlierMap`] answer most queries still, exactly. It uses one
+//! It reads and writes no files: a graph is converted to bytes and back. When the map changes, it repairs
+//! graphs with levels alone, by a [`LevelRecord`], at corners and for finite k. Contraction hierarchies and
+//! labels it does not repair; but those of an [`EarlierMap`] answer most queries still, exactly. It uses one
 //! thread, unless the feature `parallel` is on; then it finds edges and contracts subgoals in rayon's current
 //! pool. The graph is the same.
 

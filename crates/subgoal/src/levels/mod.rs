@@ -32,6 +32,7 @@ mod repair;
 mod replay;
 #[cfg(test)]
 mod tests;
+mod touches;
 
 use self::replay::Replay;
 use crate::{arc::NONE, bounds::Bounds};

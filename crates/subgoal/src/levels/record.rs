@@ -55,36 +55,34 @@ impl SubgoalGraph<Corners> {
                 let [first, end] = [from, from + 1].map(|id| edges.partition_point(|edge| edge.0 < id));
                 edges[first..end].iter().map(|edge| edge.1)
             };
-            Some(Self::record(Edges::new(count, part), chunks.concat(), read, level, &made))
+            let (first, shortcuts) = pack(&made);
+            Some(LevelRecord {
+                edges: Edges::new(count, part),
+                seen: chunks.concat().into(),
+                read: read.into(),
+                level: level.into(),
+                first,
+                shortcuts,
+            })
         } else {
             None
         };
         let graph = ground.into_graph(space, hierarchy, &contracted, interrupt)?;
         Ok((graph, record))
     }
+}
 
-    /// The record of these decisions.
-    pub(super) fn record(
-        edges: Edges,
-        seen: Vec<Bounds>,
-        read: Vec<Bounds>,
-        level: Vec<u32>,
-        shortcuts: &[impl AsRef<[(u32, u32)]>],
-    ) -> LevelRecord {
-        let mut first = Vec::with_capacity(shortcuts.len() + 1);
-        let mut all = Vec::new();
-        for made in shortcuts {
-            first.push(all.len() as u32);
-            all.extend_from_slice(made.as_ref());
-        }
+/// The first shortcut of each subgoal, and the shortcuts of all.
+type PackedShortcuts = (Box<[u32]>, Box<[(u32, u32)]>);
+
+/// The shortcuts of all subgoals in one array, with the number of the first one of each.
+pub(super) fn pack(shortcuts: &[impl AsRef<[(u32, u32)]>]) -> PackedShortcuts {
+    let mut first = Vec::with_capacity(shortcuts.len() + 1);
+    let mut all = Vec::new();
+    for made in shortcuts {
         first.push(all.len() as u32);
-        LevelRecord {
-            edges,
-            seen: seen.into(),
-            read: read.into(),
-            level: level.into(),
-            first: first.into(),
-            shortcuts: all.into(),
-        }
+        all.extend_from_slice(made.as_ref());
     }
+    first.push(all.len() as u32);
+    (first.into(), all.into())
 }

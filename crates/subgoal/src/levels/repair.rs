@@ -4,7 +4,9 @@ use mediant_grid::{Change, Corners, FreeSpace, Interrupt, Rectangle};
 
 use super::{
     Bounds, Edges, LevelRecord, NONE, Replay,
+    record::pack,
     replay::{Contracted, time},
+    touches::Touches,
 };
 use crate::{
     arc::{Step, UpwardArc},
@@ -63,41 +65,75 @@ impl LevelRecord {
         };
 
         let read = then_of.iter().map(|&id| self.read.get(id as usize).copied().unwrap_or(Bounds::EMPTY));
-        let mut touches = Touches {
-            subgoals: &ground.subgoals,
-            read: read.collect(),
-            touched: vec![false; count],
-            is_open: vec![false; count],
-            open: 0,
-        };
+        let mut touches = Touches::new(&ground.subgoals, read.collect(), space.grid());
         touched.into_iter().for_each(|id| touches.touch(id));
 
         let mut replay = Replay::new((graph, self), context, &edges, [now_of, then_of]);
+        if !self.decide_again(&mut replay, &mut touches, (levels - 1, most), interrupt)? {
+            return Ok(None);
+        }
+        let (read, touched) = touches.into_parts();
+        let mut offsets = Vec::with_capacity(count + 1);
+        let mut arcs = Vec::with_capacity(graph.arcs());
+        let now = |id: u32| now_of.get(id as usize).copied().unwrap_or(NONE);
+        for id in 0..count as u32 {
+            interrupt.check_every(1 << 10, id as usize, DURING)?;
+            offsets.push(2 * arcs.len() as u32 + u32::from(replay.level[id as usize] == NONE));
+            if touched[id as usize] {
+                arcs.extend(replay.last_list(id).iter().map(|arc| upward(&ground.subgoals, id, arc)));
+            } else {
+                let same = |arc: &UpwardArc| UpwardArc { to: now(arc.to), middle: now(arc.middle), ..*arc };
+                arcs.extend(graph.up(then_of[id as usize]).iter().map(same));
+            }
+            if arcs.len() > MAX_ARCS as usize {
+                return Err(SubgoalError::Arcs { count: arcs.len(), most: MAX_ARCS });
+            }
+        }
+        offsets.push(2 * arcs.len() as u32);
+        let is_made = |id: u32| replay.level[id as usize] != NONE;
+        let shortcuts = |id: u32| if is_made(id) { replay.shortcuts(id) } else { &[] };
+        let (first, shortcuts) = pack(&(0..count as u32).map(shortcuts).collect::<Vec<_>>());
+        let level = std::mem::take(&mut replay.level).into();
+        let record = Self { edges, seen: seen.into(), read: read.into(), level, first, shortcuts };
+        let graph = ground.graph(space, graph.hierarchy, (offsets.into(), arcs.into()));
+        Ok(Some((graph, record)))
+    }
+
+    /// Makes the decisions again that read something which was touched, of so many levels. Returns false if
+    /// they are more than `most`.
+    fn decide_again(
+        &self,
+        replay: &mut Replay<'_>,
+        touches: &mut Touches<'_>,
+        (levels, most): (u32, usize),
+        interrupt: &Interrupt,
+    ) -> Result<bool, SubgoalError> {
+        let (context, count) = (replay.context, replay.then_of.len());
         let in_round = vec![false; count];
         let rule = ShortcutRule { geometry: &context, in_round: &in_round, interrupt, limit: u64::MAX };
         let mut finder = ShortcutFinder::default();
         let levels_then = self.level.iter().filter(|&&level| level != NONE).max().map_or(0, |&last| last + 1);
-        for level in 0..levels - 1 {
+        for level in 0..levels {
             if level > 0 && level >= levels_then && !replay.level.contains(&(level - 1)) {
                 break;
             }
             for id in 0..count as u32 {
-                if !touches.is_open[id as usize] {
+                if !touches.is_open(id) {
                     continue;
                 }
-                if touches.open > most {
-                    return Ok(None);
+                if touches.open() > most {
+                    return Ok(false);
                 }
                 interrupt.check(DURING)?;
-                let then = then_of[id as usize];
+                let then = replay.then_of[id as usize];
                 let was = then != NONE && self.level[then as usize] == level;
                 let is_gone = replay.level[id as usize] < level;
                 let mut now = None;
                 if !is_gone {
                     (replay.time, replay.read) = (time(level, id), Bounds::EMPTY);
-                    let shortcuts = rule.shortcuts(&mut replay, &mut finder, id)?;
+                    let shortcuts = rule.shortcuts(replay, &mut finder, id)?;
                     let around = replay.around(id).to_vec();
-                    let read = &mut touches.read[id as usize];
+                    let read = touches.read_mut(id);
                     if level == 0 {
                         *read = Bounds::EMPTY;
                     }
@@ -121,32 +157,7 @@ impl LevelRecord {
                 }
             }
         }
-
-        let Touches { read, touched, .. } = touches;
-        let mut offsets = Vec::with_capacity(count + 1);
-        let mut arcs = Vec::with_capacity(graph.arcs());
-        let now = |id: u32| now_of.get(id as usize).copied().unwrap_or(NONE);
-        for id in 0..count as u32 {
-            interrupt.check_every(1 << 10, id as usize, DURING)?;
-            offsets.push(2 * arcs.len() as u32 + u32::from(replay.level[id as usize] == NONE));
-            if touched[id as usize] {
-                arcs.extend(replay.last_list(id).iter().map(|arc| upward(&ground.subgoals, id, arc)));
-            } else {
-                let same = |arc: &UpwardArc| UpwardArc { to: now(arc.to), middle: now(arc.middle), ..*arc };
-                arcs.extend(graph.up(then_of[id as usize]).iter().map(same));
-            }
-            if arcs.len() > MAX_ARCS as usize {
-                return Err(SubgoalError::Arcs { count: arcs.len(), most: MAX_ARCS });
-            }
-        }
-        offsets.push(2 * arcs.len() as u32);
-        let is_made = |id: u32| replay.level[id as usize] != NONE;
-        let shortcuts = |id: u32| if is_made(id) { replay.shortcuts(id) } else { &[] };
-        let made: Vec<_> = (0..count as u32).map(shortcuts).collect();
-        let level = replay.level.clone();
-        let record = SubgoalGraph::record(edges.clone(), seen, read, level, &made);
-        let graph = ground.graph(space, graph.hierarchy, (offsets.into(), arcs.into()));
-        Ok(Some((graph, record)))
+        Ok(true)
     }
 
     /// The edges of the new map; `None` if more than `most` sweeps are to be made.
@@ -218,40 +229,24 @@ struct Swept {
     touched: Vec<u32>,
 }
 
-/// The lists that may differ from those of the earlier map, and the decisions that may.
-struct Touches<'m> {
-    subgoals: &'m Subgoals,
-    read: Vec<Bounds>,
-    touched: Vec<bool>,
-    /// The subgoals that must be decided about again.
-    is_open: Vec<bool>,
-    open: usize,
-}
-
-impl Touches<'_> {
-    /// Touches the list of a subgoal: whatever read it must be decided again.
-    fn touch(&mut self, id: u32) {
-        // An end that is no more.
-        if id == NONE || std::mem::replace(&mut self.touched[id as usize], true) {
-            return;
-        }
-        let at = self.subgoals.vertex(id);
-        for (other, (read, is_open)) in (0..).zip(self.read.iter().zip(&mut self.is_open)) {
-            if !*is_open && (other == id || read.contains(at)) {
-                *is_open = true;
-                self.open += 1;
-            }
-        }
-    }
-}
-
 /// The numbers that the subgoals of each of two maps have on the other; [`NONE`] for none. Both are numbered
 /// row by row.
 fn numbers([then, now]: [&Subgoals; 2]) -> [Vec<u32>; 2] {
-    let find = |from: &Subgoals, to: &Subgoals| {
-        (0..from.len() as u32).map(|id| to.id(from.vertex(id)).unwrap_or(NONE)).collect()
+    let [mut now_of, mut then_of] = [then, now].map(|subgoals| vec![NONE; subgoals.len()]);
+    let place = |subgoals: &Subgoals, id: usize| {
+        let at = subgoals.vertex(id as u32);
+        (at.y, at.x)
     };
-    [find(then, now), find(now, then)]
+    let (mut one, mut other) = (0, 0);
+    while one < then.len() && other < now.len() {
+        let order = place(then, one).cmp(&place(now, other));
+        if order.is_eq() {
+            (now_of[one], then_of[other]) = (other as u32, one as u32);
+        }
+        one += usize::from(order.is_le());
+        other += usize::from(order.is_ge());
+    }
+    [now_of, then_of]
 }
 
 /// Visits the neighbors to which two subgoals offer different things.
