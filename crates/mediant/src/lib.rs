@@ -110,6 +110,8 @@
 //! | `subgoal` | where they prove the answer, labels or graph of the map before; elsewhere another engine | costs |
 //! | `subgoal-theta` | the edges and levels of subgoals that looked at what changed; all are numbered anew | bytes |
 //!
+//! An index of `subgoal-theta` that was read from bytes is prepared anew at its first edit.
+//!
 //! Labels of the map before prove 94 % of the answers and more after an edit of 10 × 10 cells (the table in
 //! `docs/measurements/subgoal.md`). [`Index::finish`] makes them anew, where and when you want it: on another
 //! thread, after some edits. [`Planner::searched_by`] tells by which engine a query was answered.

@@ -26,7 +26,7 @@ const DURING: &str = "repairing subgoals";
 const MOST_RECTANGLES: usize = 256;
 
 /// Of so many decisions at most one is made again; of more, all are made anew.
-const SHARE: usize = 3;
+const SHARE: usize = 4;
 
 impl LevelRecord {
     /// The graph and the record of the map after a change, equal to new ones; `None` if they are better made

@@ -57,7 +57,7 @@ fn check(seed: u64, k: K, hierarchy: Hierarchy, gap: DiagonalGap) -> [usize; 2] 
 
 #[test]
 fn a_graph_that_follows_edits_equals_a_new_one() {
-    let tallies = on_all_cores(seeds(40), |seed| {
+    let tallies = on_all_cores(seeds(28), |seed| {
         let k = FiniteK::new(2 + seed as u32 / 4 % 5).expect("k is at least 2").into();
         let levels = [2, 2, 1, 3][seed as usize / 5 % 4];
         let hierarchy = match seed % 7 {
