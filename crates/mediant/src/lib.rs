@@ -110,7 +110,8 @@
 //! | `subgoal` | where they prove the answer, labels or graph of the map before; elsewhere another engine | costs |
 //! | `subgoal-theta` | the edges and levels of subgoals that looked at what changed; all are numbered anew | bytes |
 //!
-//! An index of `subgoal-theta` that was read from bytes is prepared anew at its first edit.
+//! The first edit makes an index of `subgoal-theta` anew, with a record of what was looked at; by this it
+//! follows the next ones.
 //!
 //! Labels of the map before prove 94 % of the answers and more after an edit of 10 × 10 cells (the table in
 //! `docs/measurements/subgoal.md`). [`Index::finish`] makes them anew, where and when you want it: on another

@@ -12,6 +12,8 @@ pub(crate) struct Source<'a> {
     pub(crate) bytes: Option<&'a [u8]>,
     /// Whether it is for a single path: what takes longer than it saves one is left out.
     pub(crate) for_one_path: bool,
+    /// Whether it is for a map that has changed before: what helps to follow further edits is made, too.
+    pub(crate) for_changes: bool,
     /// Hears how far the preparation is, on any thread.
     pub(crate) progress: &'a (dyn Fn(Progress) + Sync),
     /// Stops the preparation.
@@ -21,6 +23,6 @@ pub(crate) struct Source<'a> {
 impl<'a> Source<'a> {
     /// To prepare a new index.
     pub(crate) fn new(progress: &'a (dyn Fn(Progress) + Sync)) -> Self {
-        Self { bytes: None, for_one_path: false, progress, interrupt: &NEVER }
+        Self { bytes: None, for_one_path: false, for_changes: false, progress, interrupt: &NEVER }
     }
 }

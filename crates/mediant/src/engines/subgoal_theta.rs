@@ -52,7 +52,7 @@ impl SubgoalThetaOptions {
 pub(super) struct SubgoalThetaIndex {
     space: Arc<FreeSpace<Corners>>,
     graph: Arc<SubgoalGraph<Corners>>,
-    /// By which the graph follows edits; `None` for one that was read.
+    /// By which the graph follows edits. It takes time and memory: `None` before the first one.
     record: Option<Arc<LevelRecord>>,
 }
 
@@ -67,7 +67,12 @@ impl SubgoalThetaIndex {
             Some(bytes) => (SubgoalGraph::from_bytes_interruptible(space, k, bytes, source.interrupt)?, None),
             None => {
                 let hierarchy = own.levels().hierarchy().unwrap_or_default();
-                SubgoalGraph::with_record(space, k, hierarchy, &source.progress, source.interrupt)?
+                let (progress, interrupt) = (&source.progress, source.interrupt);
+                if source.for_changes {
+                    SubgoalGraph::with_record(space, k, hierarchy, progress, interrupt)?
+                } else {
+                    (SubgoalGraph::with_progress(space, k, hierarchy, progress, interrupt)?, None)
+                }
             }
         };
         Self::of(own, space, (Arc::new(graph), record.map(Arc::new)))

@@ -43,7 +43,7 @@ impl Index {
         if let Some(repaired) = self.repaired_if_it_can_be(change, interrupt)? {
             return Ok(repaired);
         }
-        let source = Source { interrupt, ..self.source() };
+        let source = Source { interrupt, for_changes: true, ..self.source() };
         Ok(Self { setup: self.setup, ..Self::from_source(after, self.setup.engine, source)? })
     }
 

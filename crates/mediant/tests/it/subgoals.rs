@@ -66,12 +66,7 @@ fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
                 let bytes = new.to_bytes().unwrap_or_else(|error| panic!("{setup}: {error}"));
                 let saved = read(setup, &map(), bytes).unwrap_or_else(|error| panic!("{setup}: {error}"));
                 assert_eq!(saved.planner().find_counted(query), new.planner().find_counted(query), "{setup}");
-                // That of Sub-Theta* was read without the record by which it would follow edits.
-                let is_as_large = match setup.engine.kind() {
-                    Engine::SubgoalTheta => saved.memory_bytes() < new.memory_bytes(),
-                    _ => saved.memory_bytes() == new.memory_bytes(),
-                };
-                assert!(is_as_large, "{setup}");
+                assert_eq!(saved.memory_bytes(), new.memory_bytes(), "{setup}");
                 assert_eq!(levels(&new), levels(&saved), "{setup}");
                 let named = setup.engine.levels();
                 assert!(named.is_none_or(|named| levels(&new) == Some(named)), "{setup}");
