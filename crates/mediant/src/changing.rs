@@ -4,6 +4,7 @@
 //! A test of `mediant-bench` holds the choice beside the best engine of each map, motion and number of paths.
 
 use mediant_grid::{DiagonalGap, PlacementKind, Rules, Vertex, sight::line_of_sight_under};
+use mediant_moves::K;
 
 use crate::{choice::Choice, engine::Engine, map::Map, motion::Motion, setup::Setup};
 
@@ -15,9 +16,11 @@ const MOST_CELLS_OF_SMALL: u64 = 1 << 20;
 /// and on maps of games and cities it was 0.006 to 0.023. In noise no jump is long.
 const CORNERS_OF_NOISE: f64 = 0.1;
 
-/// From so large a share of free lines on, obstacles stand alone on a small map. It was 0.64 and 0.75 there, and
-/// 0.52 at most in caves, in rooms and in noise. Paths are so direct that what takes longer to repair pays later.
+/// From so large a share of free lines on, obstacles stand alone on a map of at most so many cells. It was 0.64
+/// and 0.75 there, and 0.52 at most in caves, in rooms and in noise. Paths are so direct that what takes longer
+/// to repair pays later. On larger maps (Cauldron: 0.72) they are long all the same.
 const FREE_LINES_OF_ALONE: f64 = 0.6;
+const MOST_CELLS_OF_ALONE: u64 = 1 << 19;
 
 /// Up to so many paths between two edits, between centers, block-based JPS. JPS+ takes longer to repair and
 /// less to search: it was as fast at 1 to 12 paths on most maps, where obstacles stand alone at 30 to 270.
@@ -26,9 +29,12 @@ const MOST_PATHS_OF_BLOCKS: u64 = 3;
 /// The same between corners: 1 to 48 paths, and 176.
 const MOST_PATHS_OF_BLOCKS_AT_CORNERS: u64 = 30;
 
-/// Up to so many paths between two edits JPS+ (in noise canonical A\*): labels made anew after every 40 edits
+/// Up to so many paths between two edits JPS+ (in noise block-based JPS): labels made anew after every 40 edits
 /// were as fast at 41 to 530 paths on most maps, where obstacles stand alone later.
 const MOST_PATHS_WITHOUT_LABELS: u64 = 300;
+
+/// The same at k = 2, where labels take half the time to make: 30 to 150.
+const MOST_PATHS_WITHOUT_LABELS_AT_K_2: u64 = 80;
 
 /// The same where obstacles stand alone.
 const MOST_PATHS_WITHOUT_LABELS_ALONE: u64 = 3_000;
@@ -49,17 +55,18 @@ impl Choice {
         let is_large = cells > MOST_CELLS_OF_SMALL;
         let Look { corners, free_lines } = Look::at(map);
         let is_noise = corners > CORNERS_OF_NOISE;
-        let is_alone = free_lines > FREE_LINES_OF_ALONE && !is_noise && !is_large;
-        let (without_labels, anya) = if is_alone {
-            (MOST_PATHS_WITHOUT_LABELS_ALONE, MOST_PATHS_OF_ANYA_ALONE)
-        } else {
-            (MOST_PATHS_WITHOUT_LABELS, MOST_PATHS_OF_ANYA)
+        let is_alone = free_lines > FREE_LINES_OF_ALONE && !is_noise && cells <= MOST_CELLS_OF_ALONE;
+        let (without_labels, anya) = match (is_alone, motion.k) {
+            (true, _) => (MOST_PATHS_WITHOUT_LABELS_ALONE, MOST_PATHS_OF_ANYA_ALONE),
+            (false, K::N4) => (MOST_PATHS_WITHOUT_LABELS_AT_K_2, MOST_PATHS_OF_ANYA),
+            (false, _) => (MOST_PATHS_WITHOUT_LABELS, MOST_PATHS_OF_ANYA),
         };
         let at_corners = motion.rules.placement() == PlacementKind::Corner;
         let choice = |engine, why| Self { engine, why };
         let canonical = choice(Engine::Canonical, "it follows an edit at once, and jumps are short in noise");
         match motion.k.finite().map(|k| k.get()) {
-            Some(2 | 3) if is_noise && (at_corners || paths <= MOST_PATHS_WITHOUT_LABELS) => canonical,
+            Some(2 | 3) if is_noise && at_corners => canonical,
+            Some(2 | 3) if is_noise && paths <= MOST_PATHS_WITHOUT_LABELS => Self::for_some_paths(motion),
             Some(4 | 5) if is_noise && at_corners && !is_large => {
                 choice(Engine::Jps, "it follows an edit at once, and Anya is slow in noise")
             }

@@ -158,11 +158,11 @@ impl Page<'_> {
             .flatten()
             .collect();
         self.text += &format!(
-            "\n`engine_for` goes by the motion, the size of the map, whether a sample of its corners looks like\n\
-         noise, and *n*. In {} of {} cells it is within {MOST} of the fastest, at worst {:.2} times it (a test\n\
-         lists the others). What is left is what a look at a map does not tell: around single obstacles\n\
-         (icecrown, Paris_1_512) paths are so direct that labels pay from some 200 or 300 paths on at any\n\
-         angle, in rooms and caves (arena2, AR0700SR) from 30 to 50.\n",
+            "\n`engine_for` goes by the motion, the size of the map, *n*, and a sample of places: whether their\n\
+         corners look like noise, and whether lines of 17 cells are free, as where obstacles stand alone\n\
+         (icecrown, Paris_1_512): there paths are so direct that labels pay from some 200 or 300 paths on at\n\
+         any angle, in rooms and caves (arena2, AR0700SR) from 30 to 50. In {} of {} cells it is within {MOST}\n\
+         of the fastest, at worst {:.2} times it (a test lists the others).\n",
             ratios.iter().filter(|&&ratio| ratio <= MOST).count(),
             ratios.len(),
             ratios.iter().copied().fold(1.0, f64::max),
