@@ -152,11 +152,13 @@ impl<'r, P: Placement> Repair<'r, P> {
     /// New planes, where only those dead ends are looked for that the change may alter: as in
     /// [`follow`](Self::follow).
     pub(super) fn anew(mut self, pruning: &Pruning<P>, change: &Change) -> Result<JumpPlanes, Interrupted> {
-        if self.reach == 0 {
+        let were_looked_for = JumpPlanes::should_have_dead_ends(self.graph, self.axial);
+        if self.reach == 0 && were_looked_for {
+            // There were none.
             return JumpPlanes::new(self.graph, pruning, self.interrupt);
         }
         let mut axial = AxialStops::new(self.graph, self.interrupt)?;
-        if !JumpPlanes::should_have_dead_ends(self.graph, &axial) {
+        if self.reach == 0 || !JumpPlanes::should_have_dead_ends(self.graph, &axial) {
             return JumpPlanes::with_dead_ends(self.graph, pruning, axial, 0, self.interrupt);
         }
         axial.take_dead_ends(self.axial);
