@@ -16,9 +16,9 @@ const MOST_CELLS_OF_SMALL: u64 = 1 << 20;
 /// and on maps of games and cities it was 0.006 to 0.023. In noise no jump is long.
 const CORNERS_OF_NOISE: f64 = 0.1;
 
-/// From so large a share of free lines on, obstacles stand alone on a map of at most so many cells. It was 0.64
-/// and 0.75 there, and 0.52 at most in caves, in rooms and in noise. Paths are so direct that what takes longer
-/// to repair pays later. On larger maps (Cauldron: 0.72) they are long all the same.
+/// From so large a share of free lines on, obstacles stand alone on a map of at most so many cells. It was
+/// 0.64 and 0.75 there, and 0.52 at most in caves, in rooms and in noise. Paths are so direct that what takes
+/// longer to repair pays later. On larger maps (Cauldron: 0.72) they are long all the same.
 const FREE_LINES_OF_ALONE: f64 = 0.6;
 const MOST_CELLS_OF_ALONE: u64 = 1 << 19;
 
@@ -29,8 +29,8 @@ const MOST_PATHS_OF_BLOCKS: u64 = 3;
 /// The same between corners: 1 to 48 paths, and 176.
 const MOST_PATHS_OF_BLOCKS_AT_CORNERS: u64 = 30;
 
-/// Up to so many paths between two edits JPS+ (in noise block-based JPS): labels made anew after every 40 edits
-/// were as fast at 41 to 530 paths on most maps, where obstacles stand alone later.
+/// Up to so many paths between two edits JPS+ (in noise block-based JPS): labels made anew after every 40
+/// edits were as fast at 41 to 530 paths on most maps, where obstacles stand alone later.
 const MOST_PATHS_WITHOUT_LABELS: u64 = 300;
 
 /// The same at k = 2, where labels take half the time to make: 30 to 150.
@@ -95,7 +95,7 @@ impl Choice {
     }
 }
 
-/// What a sample of places all over a map tells of it.
+/// A map, as a sample of places all over it shows it.
 struct Look {
     /// The convex corners of blocked cells, by the cells of the map.
     corners: f64,

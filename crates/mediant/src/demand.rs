@@ -45,8 +45,8 @@ impl Space {
     ///   [`Space::engine`];
     /// - for a map that changes an engine that follows the edits, by the motion, the size of the map, whether
     ///   it is noise or its obstacles stand alone, and the paths between two edits: up to 30 to 3,000 of them
-    ///   one whose repair is quick, beyond that subgoals. These are reckoned as [finished](crate::Index::finish) after every 40 edits;
-    ///   `docs/results/changes.md` has the figures;
+    ///   one whose repair is quick, beyond that subgoals. These are reckoned as
+    ///   [finished](crate::Index::finish) after every 40 edits; `docs/results/changes.md` has the figures;
     /// - for all distances Dijkstra's algorithm;
     /// - for an index subgoals, or JPS+ where they are not for this motion.
     ///

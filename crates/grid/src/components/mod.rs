@@ -349,8 +349,8 @@ impl Sets {
         }
     }
 
-    /// For each number that of its set, with the sets numbered from 0 in the order of their roots; and the number
-    /// of sets.
+    /// For each number that of its set, with the sets numbered from 0 in the order of their roots; and the
+    /// number of sets.
     fn names(mut self) -> (Vec<u32>, u32) {
         let mut count = 0;
         for i in 0..self.parents.len() {

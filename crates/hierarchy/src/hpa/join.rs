@@ -191,7 +191,11 @@ impl Joined {
                 }
             }
         }
-        // Costs hold in both directions.
+        self.mirror(count);
+    }
+
+    /// Costs hold in both directions: those from smaller to larger numbers of so many nodes are known.
+    fn mirror(&mut self, count: usize) {
         for node in 1..count {
             let (above, row) = self.costs.split_at_mut(node * count);
             let mut place = node;

@@ -456,9 +456,9 @@ impl LevelEdit {
         self.nodes_of(cluster).iter().map(Node::at).eq(cells.iter().map(|&(at, _)| at))
     }
 
-    /// Joins the nodes along sides of a cluster with the nodes beside them across its borders: the two ends of
-    /// a transition, and in the corners of clusters also ends of different transitions, between which a step is
-    /// legal as well.
+    /// Joins the nodes along sides of a cluster with the nodes beside them across its borders: the two ends
+    /// of a transition, and in the corners of clusters also ends of different transitions, between which a
+    /// step is legal as well.
     pub(crate) fn join_across(&mut self, cluster: u32, sides: u8) {
         let &Cluster { first, count, .. } = self.cluster(cluster);
         let (bounds, neighbors) = (self.full_bounds(cluster), self.neighbors(cluster));

@@ -67,8 +67,8 @@ fn check_same(one: &mut Planner, new: &Index, queries: &[Ends], message: &str) {
     }
 }
 
-/// Checks that a planner that followed edits finds shortest paths, by an oracle that knows the map alone; returns
-/// the number of queries.
+/// Checks that a planner that followed edits finds shortest paths, by an oracle that knows the map alone;
+/// returns the number of queries.
 fn check_shortest(planner: &mut Planner, space: &Space, queries: &[Ends], message: &str) -> usize {
     let (grid, motion) = (space.map().grid(), space.motion());
     let is_small = grid.width() * grid.height() <= 600;
@@ -178,7 +178,8 @@ fn paths_on_edited_maps_are_those_of_new_maps() {
 
 /// Random edits by seed, each engine's index along them: a repaired index answers as one made anew, is as
 /// large, and says how it came about. That of Anya may leave out less, JPS+ has room for more, and subgoals
-/// are those of the map before, but paths cost the same. That of Sub-Theta\* is made anew once, with a record.
+/// are those of the map before, but paths cost the same. That of Sub-Theta\* is made anew once, with a
+/// record.
 #[test]
 fn repaired_indexes_are_as_good_as_new_ones() {
     let mut rng = Rng::new(16);

@@ -14,8 +14,8 @@
 //! reach of p, from the jump points within it, and from whether jumps from vertices within it come to jump
 //! points. So all dead ends within reach of a zone, or of a vertex from which the answer changes, are looked
 //! at again, and few others: these vertices are kept as tiles. None of this depends on which of them are dead
-//! ends. Once that is known, jumps that pass dead ends have changes of their own, which begin where one begins
-//! or ceases to be.
+//! ends. Once that is known, jumps that pass dead ends have changes of their own, which begin where one
+//! begins or ceases to be.
 //!
 //! A dead end that is not known to be one costs a search some time, and no path. So other jump points are
 //! looked at only close to the zones. But for these, the result is equal to new planes, bit by bit.
@@ -73,18 +73,20 @@ pub(super) struct Repair<'r, P: Placement> {
     /// The reach of dead ends; 0 if there are none.
     reach: u32,
     map: Zone,
-    /// The work that it may still do.
+    /// The time that it may still take, in nanoseconds as it is reckoned: that of new planes.
     left: u64,
 }
 
-/// The work for a vertex of a zone, by that for a vertex from which the answer changes (12 ns).
-const OF_ZONE: u64 = 12;
-/// By how much more the whole takes than the zones, at least. (On the StarCraft map of the competition's
-/// sample 18 of 19 repairs were given up in the end; to know it before saves 7 % of the instructions of the
-/// changes.)
-const BEYOND_ZONES: u64 = 2;
-/// Likewise that for three vertices of new planes. (The dead ends that are looked at are the same.)
-const NEW: u64 = 2;
+/// The time for a vertex of a zone, in nanoseconds.
+const OF_ZONE: u64 = 120;
+/// The time for a vertex from which the answer changes.
+const OF_VERTEX: u64 = 50;
+/// For a change of more zones these vertices are counted before any is looked at.
+const FEW_ZONES: usize = 16;
+/// The time of new planes for a vertex and a direction of diagonal jumps, and where these have forced
+/// successors, which are looked for vertex by vertex. (The dead ends that are looked at are the same.)
+const NEW: u64 = 1;
+const NEW_WITH_FORCED: u64 = 6;
 /// The distance from a zone up to which new dead ends are looked for.
 const NEAR: i32 = 4;
 
@@ -96,7 +98,8 @@ impl<'r, P: Placement> Repair<'r, P> {
         (axial, diagonals, reach): (&'r AxialStops, &'r DiagonalStops, u32),
         interrupt: &'r Interrupt,
     ) -> Self {
-        let left = graph.vertex_count() as u64 * NEW / 3;
+        let new = if table.diagonals_may_force() { NEW_WITH_FORCED } else { NEW };
+        let left = (graph.vertex_count() * graph.steps().len() / 2) as u64 * new;
         let map = Zone::map::<P>(graph.grid());
         Self { graph, table, interrupt, axial, diagonals, reach, map, left }
     }
@@ -111,12 +114,16 @@ impl<'r, P: Placement> Repair<'r, P> {
     pub(super) fn follow(mut self, change: &Change) -> Result<(AxialStops, DiagonalStops, Altered), Stop> {
         let zones = Zone::of_change::<P>(change);
         let work: u64 = zones.iter().map(|zone| zone.count() * OF_ZONE).sum();
-        // The rest takes more: it is not begun if it would be given up.
-        self.spend(BEYOND_ZONES * work)?;
-        self.left += (BEYOND_ZONES - 1) * work;
+        self.spend(work)?;
         let (mut axial, mut found) = self.axial.with_zones(self.graph, &zones, self.interrupt)?;
         found.retain(|(_, quarter)| quarter.is_multiple_of(8 / self.graph.steps().len()));
         let mut words = words_of(&axial, &found);
+        let is_counted = zones.len() > FEW_ZONES;
+        if is_counted {
+            axial.for_each_other_answer(self.axial, &words, |_, answers| {
+                self.spend(OF_VERTEX * others(answers))
+            })?;
+        }
         if self.reach > 0 {
             if self.graph.has_closed_gaps() {
                 // Then there are no dead ends.
@@ -141,7 +148,9 @@ impl<'r, P: Placement> Repair<'r, P> {
         let before = self.axial;
         axial.for_each_other_answer(before, &words, |line, [was, is]| {
             let bits = was.any ^ is.any | was.live ^ is.live;
-            self.spend(bits.count_ones().into())?;
+            if !is_counted {
+                self.spend(OF_VERTEX * others([was, is]))?;
+            }
             self.interrupt.check(DURING)?;
             self.set_line(&axial, (line, bits, is), &mut edit);
             Ok::<(), Stop>(())
@@ -206,7 +215,6 @@ impl<'r, P: Placement> Repair<'r, P> {
         // The vertices within reach of a zone, or of a vertex from which jumps lead elsewhere.
         let mut tiles = Tiles::new(self.map, 3);
         zones.iter().for_each(|zone| tiles.add(zone.grown(reach, reach)));
-        let left = self.left;
         axial.for_each_other_answer(self.axial, words, |line, [was, is]| {
             let bits = was.any ^ is.any;
             if bits != 0 {
@@ -214,10 +222,8 @@ impl<'r, P: Placement> Repair<'r, P> {
                     [bits.trailing_zeros(), 63 - bits.leading_zeros()].map(|bit| line.vertex(bit));
                 tiles.add(Zone::around(first, last).grown(reach, reach));
             }
-            self.spend(bits.count_ones().into())
+            Ok::<(), Stop>(())
         })?;
-        // The bits of these vertices are still to be set: dead ends are not looked at if that would be too much.
-        self.left = left;
         let mut points = Vec::new();
         for zone in tiles.zones() {
             self.interrupt.check(DURING)?;
@@ -363,6 +369,11 @@ impl Here<'_> {
 fn is_gap(rows: &BitMatrix, at: Vertex) -> bool {
     let [a, b, c, d] = [(-1, -1), (0, -1), (-1, 0), (0, 0)].map(|(dx, dy)| rows.get(at.x + dx, at.y + dy));
     a == d && b == c && a != b
+}
+
+/// The number of vertices of a word from which the answer is another one.
+fn others([was, is]: [Answers; 2]) -> u64 {
+    (was.any ^ is.any | was.live ^ is.live).count_ones().into()
 }
 
 /// The words that hold vertices as jumps in a direction find them, in order.

@@ -103,8 +103,8 @@ impl JumpTable {
     /// quicker.
     ///
     /// It leads to the same costs as a new one. Whether it looks for dead ends, and whether it has lists, was
-    /// decided when these were made anew. Its lists have room for those of further edits, a quarter of their words
-    /// or a little more.
+    /// decided when these were made anew. Its lists have room for those of further edits, a quarter of their
+    /// words or a little more.
     ///
     /// # Errors
     /// [`JumpError::Mismatch`] if the change is not from the map of this table to that of the grid graph, or

@@ -42,9 +42,9 @@ use crate::{arc::NONE, bounds::Bounds};
 #[derive(Clone, Debug)]
 pub struct LevelRecord {
     edges: Edges,
-    /// What the sweep of each subgoal read.
+    /// The cells that the sweep of each subgoal read.
     seen: Box<[Bounds]>,
-    /// What the searches for witnesses of each subgoal read.
+    /// The lists that the searches for witnesses of each subgoal read.
     read: Box<[Bounds]>,
     /// The level that left each subgoal out, counted from 0; [`NONE`] for none.
     level: Box<[u32]>,

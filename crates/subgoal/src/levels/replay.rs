@@ -10,7 +10,7 @@ use crate::{
     placement::BuildContext,
 };
 
-/// What contracting a subgoal did: the arcs that it had, and its shortcuts.
+/// A subgoal that is contracted: the arcs that it had, and its shortcuts.
 #[derive(Clone, Debug)]
 pub(super) struct Contracted {
     pub(super) around: Vec<OverlayArc>,
@@ -18,7 +18,7 @@ pub(super) struct Contracted {
 }
 
 impl Contracted {
-    /// What it offers to each neighbor, in order: first the loss of the arc to it, then shortcuts.
+    /// Its offers to each neighbor, in order: first the loss of the arc to it, then shortcuts.
     pub(super) fn offers(&self, id: u32) -> Vec<(u32, OverlayArc)> {
         let loss = OverlayArc { cost: 0, to: id, middle: NONE, first: NONE, last: NONE };
         let mut offers: Vec<_> = self.around.iter().map(|arc| (arc.to, loss)).collect();
@@ -48,7 +48,7 @@ pub(super) struct Replay<'m> {
     made: Vec<Contracted>,
     /// Decisions before this time are seen.
     pub(super) time: u64,
-    /// What was read.
+    /// All that was read.
     pub(super) read: Bounds,
 }
 
@@ -82,7 +82,7 @@ impl<'m> Replay<'m> {
         time(self.level[id as usize], id)
     }
 
-    /// What contracting a subgoal did on the earlier map, by the numbers of now.
+    /// A subgoal as it was contracted on the earlier map, by the numbers of now.
     pub(super) fn contracted_then(&self, id: u32) -> Contracted {
         let (graph, record) = self.then;
         let then = self.then_of[id as usize];
@@ -108,7 +108,7 @@ impl<'m> Replay<'m> {
         self.made.push(contracted);
     }
 
-    /// What contracting a subgoal does now.
+    /// A subgoal as it is contracted now.
     pub(super) fn contracted(&mut self, id: u32) -> &Contracted {
         if self.made_of[id as usize] == NONE {
             let then = self.contracted_then(id);
@@ -127,7 +127,7 @@ impl<'m> Replay<'m> {
 
     /// The list of a subgoal as it is when it is contracted, or in the end.
     pub(super) fn last_list(&mut self, id: u32) -> &[OverlayArc] {
-        // Those that no level leaves out stay.
+        // Subgoals that no level leaves out stay.
         self.time = self.time_of(id).min(time(NONE, 0));
         self.around(id)
     }

@@ -11,7 +11,7 @@ const SHIFT: u32 = 3;
 /// The lists that were touched, and the decisions that are made again.
 pub(super) struct Touches<'m> {
     subgoals: &'m Subgoals,
-    /// What each decision read.
+    /// The lists that each decision read.
     read: Vec<Bounds>,
     is_touched: Vec<bool>,
     touched: Vec<Vertex>,
@@ -75,12 +75,12 @@ impl<'m> Touches<'m> {
         self.open
     }
 
-    /// What the decisions about a subgoal read.
+    /// The lists that the decisions about a subgoal read.
     pub(super) fn read_mut(&mut self, id: u32) -> &mut Bounds {
         &mut self.read[id as usize]
     }
 
-    /// What all decisions read, and which lists were touched.
+    /// All that decisions read, and which lists were touched.
     pub(super) fn into_parts(self) -> (Vec<Bounds>, Vec<bool>) {
         (self.read, self.is_touched)
     }

@@ -1,5 +1,5 @@
-//! From which vertices axial jumps come to a jump point, 64 vertices of a line at a time: from the last word of
-//! a line to its first one, against the jumps.
+//! From which vertices axial jumps come to a jump point, 64 vertices of a line at a time: from the last word
+//! of a line to its first one, against the jumps.
 
 use mediant_grid::Vertex;
 
@@ -40,7 +40,8 @@ impl AxialStops {
         (self.planes[quarter & 3].place(at) >> 6) as usize
     }
 
-    /// The words in which vertices stop jumps otherwise than in planes of the same size, or are other dead ends.
+    /// The words in which vertices stop jumps otherwise than in planes of the same size, or are other dead
+    /// ends.
     pub(in super::super) fn words_unlike(&self, other: &Self) -> Vec<usize> {
         let words = self.words.iter().zip(other.words.iter()).enumerate();
         words.filter(|(_, (is, was))| is != was).map(|(word, _)| word).collect()

@@ -38,8 +38,8 @@ impl Tiles {
         }
     }
 
-    /// The rectangles of vertices that these tiles are, each as wide as there are tiles side by side, and as high
-    /// as these are the same.
+    /// The rectangles of vertices that these tiles are, each as wide as there are tiles side by side, and as
+    /// high as these are the same.
     pub(super) fn zones(&self) -> Vec<Zone> {
         let (mut all, mut open): (Vec<Zone>, Vec<Zone>) = (Vec::new(), Vec::new());
         for (row, y) in self.words.chunks_exact(self.words_a_row).zip((0..).step_by(1 << self.side)) {
