@@ -99,7 +99,7 @@ impl<'r, P: Placement> Repair<'r, P> {
         interrupt: &'r Interrupt,
     ) -> Self {
         let new = if table.diagonals_may_force() { NEW_WITH_FORCED } else { NEW };
-        let left = (graph.vertex_count() * graph.steps().len() / 2) as u64 * new;
+        let left = graph.vertex_count() as u64 * (graph.steps().len() as u64 / 2) * new;
         let map = Zone::map::<P>(graph.grid());
         Self { graph, table, interrupt, axial, diagonals, reach, map, left }
     }
@@ -160,7 +160,7 @@ impl<'r, P: Placement> Repair<'r, P> {
 
     /// New planes, where only those dead ends are looked for that the change may alter: as in
     /// [`follow`](Self::follow).
-    pub(super) fn anew(mut self, pruning: &Pruning<P>, change: &Change) -> Result<JumpPlanes, Interrupted> {
+    pub(super) fn anew(self, pruning: &Pruning<P>, change: &Change) -> Result<JumpPlanes, Interrupted> {
         let were_looked_for = JumpPlanes::should_have_dead_ends(self.graph, self.axial);
         if self.reach == 0 && were_looked_for {
             // There were none.
@@ -171,16 +171,10 @@ impl<'r, P: Placement> Repair<'r, P> {
             return JumpPlanes::with_dead_ends(self.graph, pruning, axial, 0, self.interrupt);
         }
         axial.take_dead_ends(self.axial);
-        self.left = u64::MAX;
         let (zones, words) = (Zone::of_change::<P>(change), axial.words_unlike(self.axial));
-        match self.jump_points(&axial, &zones, &words) {
-            Ok(points) => {
-                let axial = axial.with_jump_points(&points);
-                JumpPlanes::with_known_dead_ends(self.graph, pruning, (axial, self.reach), self.interrupt)
-            }
-            Err(Stop::Interrupted(interrupted)) => Err(interrupted),
-            Err(Stop::TooMuch) => JumpPlanes::new(self.graph, pruning, self.interrupt),
-        }
+        let points = self.jump_points(&axial, &zones, &words)?;
+        let axial = axial.with_jump_points(&points);
+        JumpPlanes::with_known_dead_ends(self.graph, pruning, (axial, self.reach), self.interrupt)
     }
 
     /// The directions of axial jumps.
@@ -206,11 +200,11 @@ impl<'r, P: Placement> Repair<'r, P> {
     /// The jump points that are dead ends now and were none, or the other way; in the zones, where the planes
     /// say of none that it is one, all that are. Far from the zones, those are missing that were none.
     fn jump_points(
-        &mut self,
+        &self,
         axial: &AxialStops,
         zones: &[Zone],
         words: &[usize],
-    ) -> Result<Vec<JumpPoint>, Stop> {
+    ) -> Result<Vec<JumpPoint>, Interrupted> {
         let reach = self.reach as i32;
         // The vertices within reach of a zone, or of a vertex from which jumps lead elsewhere.
         let mut tiles = Tiles::new(self.map, 3);
@@ -222,7 +216,7 @@ impl<'r, P: Placement> Repair<'r, P> {
                     [bits.trailing_zeros(), 63 - bits.leading_zeros()].map(|bit| line.vertex(bit));
                 tiles.add(Zone::around(first, last).grown(reach, reach));
             }
-            Ok::<(), Stop>(())
+            self.interrupt.check(DURING)
         })?;
         let mut points = Vec::new();
         for zone in tiles.zones() {
