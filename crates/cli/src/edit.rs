@@ -64,5 +64,6 @@ pub(crate) fn check_place(cells: &PlacedPatch, grid: &Grid) -> Result<(), String
 /// A JSON error without its line, which is always 1 in a file of lines.
 pub(crate) fn json_problem(error: &serde_json::Error) -> String {
     let text = error.to_string();
-    text.split(" at line ").next().unwrap_or_default().to_owned()
+    let text = text.split(" at line ").next().unwrap_or_default();
+    if error.is_syntax() { format!("this is not JSON ({text})") } else { text.to_owned() }
 }
