@@ -127,8 +127,8 @@ impl JumpTable {
             return Ok(Self { blocks, lists, is_repaired });
         }
         let planes = self.blocks.planes_after(graph, pruning, change, interrupt)?;
-        // They may not know all dead ends, those that are made when a table is read do.
-        let is_repaired = planes.reach > 0;
+        // They may not know all dead ends, or not look for them. Those that are made when a table is read do.
+        let is_repaired = planes.reach > 0 || JumpPlanes::should_have_dead_ends(graph, &planes.axial);
         Ok(Self { is_repaired, ..Self::from_planes(graph, pruning, planes, interrupt)? })
     }
 
