@@ -196,7 +196,7 @@ impl<G: SubgoalGeometry> Contraction<G> {
     }
 }
 
-/// How the shortcuts of a subgoal are found.
+/// The rule by which the shortcuts of a subgoal are found.
 pub(crate) struct ShortcutRule<'c, G> {
     pub(crate) geometry: &'c G,
     /// The subgoals of the current round.

@@ -37,8 +37,8 @@ mod touches;
 use self::replay::Replay;
 use crate::{arc::NONE, bounds::Bounds};
 
-/// How the levels of a [`SubgoalGraph`](crate::SubgoalGraph) at corners came about, so that it can follow an
-/// edit of the map.
+/// The decisions from which the levels of a [`SubgoalGraph`](crate::SubgoalGraph) at corners came about, so
+/// that it can follow an edit of the map.
 #[derive(Clone, Debug)]
 pub struct LevelRecord {
     edges: Edges,

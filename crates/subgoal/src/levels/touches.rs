@@ -70,7 +70,7 @@ impl<'m> Touches<'m> {
         has_tile && self.touched.iter().any(|&at| read.contains(at))
     }
 
-    /// How many are decided about again.
+    /// The number of subgoals that are decided about again.
     pub(super) const fn open(&self) -> usize {
         self.open
     }
