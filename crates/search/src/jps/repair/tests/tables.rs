@@ -296,6 +296,8 @@ impl Test for Costs {
 fn repaired_tables_lose_no_path() {
     let mut test = Costs::default();
     on_all(seeds(4), &mut test);
+    // There a large edit leaves so few jump points that a new table would look for dead ends.
+    test.on::<Centers>(CornerRule::Never, 2, 102);
     let Costs { repaired, anew, queries, found, read } = test;
     assert!(repaired > 300 && anew > 10 && read > 20, "{repaired} repaired, {anew} anew, {read} read");
     assert!(queries > 1_500 && found > 1_000, "{found} of {queries}");
