@@ -11,6 +11,8 @@
 //! * [`Explicit`]: Dijkstra's algorithm on the graph of all legal moves, for every k and for any-angle paths.
 //! * [`Visibility`]: the same costs under corner placement from the visibility graph of the obstacles' convex
 //!   corners, one graph for all k.
+//! * [`WeightedGraph`]: Dijkstra's algorithm where cells have a cost a unit of length, a [`WeightedMap`], and
+//!   [`Shares`]: the exact integral of this cost along a segment. [`random_weighted`]: such maps from a seed.
 //! * [`validate`]: checks that a path is legal and has the stated cost.
 //! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
 //!   [`seeds`] are those of a suite. [`random_change`]: edits of them.
@@ -43,12 +45,14 @@ mod dijkstra;
 mod edits;
 mod generate;
 mod geometry;
+mod graph;
 mod interrupts;
 mod legality;
 mod neighborhood;
 mod random;
 mod validate;
 mod visibility;
+mod weighted;
 
 pub use case::{Case, describe, every, is_exhaustive, maps_of_nine_cells, on_all_cores, seeds};
 pub use dijkstra::{Costs, Explicit};
@@ -63,3 +67,7 @@ pub use neighborhood::neighborhood;
 pub use random::Rng;
 pub use validate::{Fault, validate};
 pub use visibility::{Visibility, VisibilityCosts, VisibilityGraph};
+pub use weighted::{
+    Integral, Piece, Shares, WeightedGraph, WeightedMap, random_weighted, weighted_costs, weighted_lengths,
+    weighted_path_cost, weighted_path_length,
+};

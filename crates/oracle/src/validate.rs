@@ -155,19 +155,31 @@ pub fn validate(
     cost: f64,
 ) -> Result<(), Fault> {
     check_ends(start, goal, waypoints)?;
+    legal_steps(grid, rules, k, waypoints)?;
+    let measured = waypoints.windows(2).fold(0.0, |sum, pair| sum + length(pair[0].to(pair[1])));
+    let is_close = (cost - measured).abs() <= TOLERANCE * measured;
+    if is_close { Ok(()) } else { Err(Fault::Cost { stated: cost, measured, start, goal }) }
+}
+
+/// All vertices of a path, with one vertex a move of N(k), or, for k = `None`, the waypoints; the first fault
+/// of its moves otherwise.
+pub(crate) fn legal_steps(
+    grid: &Grid,
+    rules: Rules,
+    k: Option<FiniteK>,
+    waypoints: &[Vertex],
+) -> Result<Vec<Vertex>, Fault> {
     let blocked = |at: &Vertex| !vertex_is_free(grid, rules.placement(), *at);
     if let Some(index) = waypoints.iter().position(blocked) {
         return Err(Fault::NotFree { index, at: waypoints[index] });
     }
     let moves = k.map(|k| (k, neighborhood(Some(k), grid.width(), grid.height())));
-    let mut path = vec![start];
-    let mut measured = 0.0;
+    let mut path: Vec<Vertex> = waypoints.first().copied().into_iter().collect();
     for (pair, index) in waypoints.windows(2).zip(1..) {
         let (from, to) = (pair[0], pair[1]);
         if from == to {
             return Err(Fault::Still { index, at: to });
         }
-        measured += length(from.to(to));
         match &moves {
             Some((k, moves)) => check_repeated_move(grid, rules, (*k, moves), (from, to), &mut path)?,
             None if segment_is_legal(grid, rules, from, to) => path.push(to),
@@ -177,8 +189,7 @@ pub fn validate(
     if rules == Rules::Corner(DiagonalGap::Closed) {
         check_turns(grid, &path)?;
     }
-    let is_close = (cost - measured).abs() <= TOLERANCE * measured;
-    if is_close { Ok(()) } else { Err(Fault::Cost { stated: cost, measured, start, goal }) }
+    Ok(path)
 }
 
 fn check_ends(start: Vertex, goal: Vertex, waypoints: &[Vertex]) -> Result<(), Fault> {

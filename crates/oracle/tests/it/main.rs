@@ -5,3 +5,5 @@ mod maps;
 mod paths;
 mod rules;
 mod visibility;
+mod weighted;
+mod weighted_elsewhere;
