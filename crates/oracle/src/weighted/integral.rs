@@ -129,8 +129,10 @@ impl Integral {
 mod tests {
     use super::*;
 
-    /// The cells and numerators in the order of cells.
-    fn shares(placement: PlacementKind, x: i32, y: i32) -> (Vec<(Vec<(i32, i32)>, u128)>, u128) {
+    /// The pieces, with their cells and numerators, in the order of cells, and the denominator.
+    type Listed = (Vec<(Vec<(i32, i32)>, u128)>, u128);
+
+    fn shares(placement: PlacementKind, x: i32, y: i32) -> Listed {
         let shares = Shares::new(placement, Vector::new(x, y));
         let cells = |piece: &Piece| piece.cells.iter().map(|cell| (cell.x, cell.y)).collect();
         let mut pieces: Vec<_> = shares.pieces.iter().map(|piece| (cells(piece), piece.numerator)).collect();
@@ -139,7 +141,7 @@ mod tests {
     }
 
     /// Pieces in one cell each.
-    fn single(pieces: &[((i32, i32), u128)], denominator: u128) -> (Vec<(Vec<(i32, i32)>, u128)>, u128) {
+    fn single(pieces: &[((i32, i32), u128)], denominator: u128) -> Listed {
         (pieces.iter().map(|&(cell, numerator)| (vec![cell], numerator)).collect(), denominator)
     }
 

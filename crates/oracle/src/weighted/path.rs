@@ -12,6 +12,9 @@ use crate::{Fault, validate::legal_steps};
 ///
 /// # Errors
 /// The first [`Fault`] of the moves. Whether the path is optimal is not checked.
+///
+/// # Panics
+/// If the cost exceeds 64 bits.
 pub fn weighted_path_cost(
     map: &WeightedMap,
     rules: Rules,
@@ -20,7 +23,8 @@ pub fn weighted_path_cost(
     move_cost: impl Fn(&Integral) -> u64,
 ) -> Result<u64, Fault> {
     let integrals = integrals(map, rules, k, waypoints)?;
-    Ok(integrals.iter().map(move_cost).sum())
+    let add = |sum: u64, integral| sum.checked_add(move_cost(integral)).expect("costs fit in 64 bits");
+    Ok(integrals.iter().fold(0, add))
 }
 
 /// The cost of a path as in [`weighted_path_cost`], where a move costs its integral times its length on the

@@ -38,6 +38,9 @@ impl WeightedGraph {
     /// are blocked or outside the map reach none.
     ///
     /// `move_cost` makes the cost of a move in integers from its integral.
+    ///
+    /// # Panics
+    /// If a cost exceeds 64 bits.
     #[must_use]
     pub fn nearest(
         &self,

@@ -1,22 +1,15 @@
 //! Weighted maps: integrals, least costs by hand, and what must hold on random maps.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use mediant_grid::{CornerRule, DiagonalGap, Grid, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, Vector};
 use mediant_oracle::{
-    Explicit, Fault, Integral, Rng, Shares, WeightedGraph, WeightedMap, neighborhood, random_free_vertex,
-    random_vertex, random_weighted, seeds, segment_is_legal, weighted_costs, weighted_lengths,
-    weighted_path_cost, weighted_path_length,
+    Explicit, Fault, Integral, Rng, Shares, WeightedGraph, WeightedMap, maps_of_nine_cells, neighborhood,
+    random_free_vertex, random_vertex, random_weighted, seeds, segment_is_legal, turn_is_legal,
+    weighted_costs, weighted_lengths, weighted_path_cost, weighted_path_length,
 };
 
-const ALL_RULES: [Rules; 5] = [
-    Rules::Center(CornerRule::Never),
-    Rules::Center(CornerRule::One),
-    Rules::Center(CornerRule::Always),
-    OPEN,
-    CLOSED,
-];
 const OPEN: Rules = Rules::Corner(DiagonalGap::Open);
 const CLOSED: Rules = Rules::Corner(DiagonalGap::Closed);
 const PLACEMENTS: [PlacementKind; 2] = [PlacementKind::Center, PlacementKind::Corner];
@@ -173,7 +166,7 @@ fn on_random_maps(default: u64, mut test: impl FnMut(&WeightedMap, Rules, u32, &
         if map.grid().width() * map.grid().height() > 300 && seed % 4 != 3 {
             continue;
         }
-        for rules in ALL_RULES {
+        for rules in Rules::ALL {
             let mut rng = Rng::new(seed);
             let k = 2 + rng.below(4);
             test(&map, rules, k, &mut rng, &format!("seed {seed}, {kind}, {rules}, k = {k}\n{map}"));
@@ -190,14 +183,14 @@ fn equal_weights_are_a_factor_of_lengths() {
         let Some(start) = random_free_vertex(rng, map.grid(), rules.placement()) else { return };
         let (explicit, graph) =
             (Explicit::new(map.grid(), rules, k(number)), WeightedGraph::new(&map, rules, k(number)));
-        let (expected, found) = (explicit.costs_from(start), graph.lengths(&[start]));
+        let (costs, found) = (explicit.costs_from(start), graph.lengths(&[start]));
         assert!(found.iter().any(Option::is_some), "{context}");
         for goal in graph.free_vertices() {
             let found = found[graph.index(goal).expect("a vertex")];
-            let expected = expected.to(goal).map(|length| length * f64::from(factor));
+            let expected = costs.to(goal).map(|length| length * f64::from(factor));
             assert!(is_same(found, expected), "{found:?}, not {expected:?}: {start} to {goal}, {context}");
             reached += u32::from(found.is_some());
-            if let Some(path) = explicit.costs_from(start).path_to(goal) {
+            if let Some(path) = costs.path_to(goal) {
                 let length = weighted_path_length(&map, rules, k(number), &path).expect(context);
                 assert!(is_same(Some(length), expected), "{start} to {goal}, {context}");
             }
@@ -261,6 +254,65 @@ fn costs_are_the_fixed_point_over_legal_moves() {
         }
     });
     assert!(tight > 1000, "{tight}");
+}
+
+/// The costs from a vertex by a search whose states are a vertex and the one before it, so that turns at gaps
+/// are judged as they occur.
+fn costs_by_turns(
+    map: &WeightedMap,
+    rules: Rules,
+    k: Option<FiniteK>,
+    start: Vertex,
+) -> BTreeMap<(i32, i32), u64> {
+    let (grid, placement) = (map.grid(), rules.placement());
+    let moves = neighborhood(k, grid.width() + 1, grid.height() + 1);
+    let may_turn = |before, at, after| rules != CLOSED || turn_is_legal(grid, before, at, after);
+    let (mut costs, mut done) = (BTreeMap::new(), BTreeSet::new());
+    let mut open = BTreeSet::from([(0, (start.x, start.y), None::<(i32, i32)>)]);
+    while let Some((cost, xy, before)) = open.pop_first() {
+        if !done.insert((xy, before)) {
+            continue;
+        }
+        let (from, before) = (Vertex::from(xy), before.map(Vertex::from));
+        if may_turn(before, from, None) {
+            costs.entry(xy).or_insert(cost);
+        }
+        for to in moves.iter().map(|&d| from + d) {
+            if may_turn(before, from, Some(to)) && segment_is_legal(grid, rules, from, to) {
+                let integral = map.integral(placement, from, to).expect("a legal move");
+                open.insert((cost + rounded(&integral, map.cell_size()), (to.x, to.y), Some(xy)));
+            }
+        }
+    }
+    costs
+}
+
+#[test]
+fn gaps_are_left_as_they_may_be() {
+    let (mut closed, mut open) = (0, 0);
+    for (cells, grid) in maps_of_nine_cells(7) {
+        let mut rng = Rng::new(cells);
+        let map = WeightedMap::from_fn(grid, |_, _| 1 + rng.below(9));
+        for (rules, number) in [(CLOSED, 2), (CLOSED, 3), (CLOSED, 4), (OPEN, 3)] {
+            let Some(start) = random_free_vertex(&mut rng, map.grid(), PlacementKind::Corner) else {
+                continue;
+            };
+            let expected = costs_by_turns(&map, rules, k(number), start);
+            let graph = WeightedGraph::new(&map, rules, k(number));
+            let found = graph.costs(&[start], |integral| rounded(integral, (1.0, 1.0)));
+            for to in graph.free_vertices() {
+                let (found, expected) =
+                    (found[graph.index(to).expect("a vertex")], expected.get(&(to.x, to.y)));
+                assert_eq!(
+                    found.as_ref(),
+                    expected,
+                    "{start} to {to}, {rules}, k = {number}, map {cells}: {map}"
+                );
+                *if rules == CLOSED { &mut closed } else { &mut open } += u32::from(found.is_none());
+            }
+        }
+    }
+    assert!(closed > 100, "{closed} not reached with closed gaps, {open} with open ones");
 }
 
 #[test]
