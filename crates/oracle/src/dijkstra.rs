@@ -9,8 +9,9 @@ use crate::graph::Graph;
 
 /// The graph of all legal moves of a neighborhood on a grid, with every free vertex and every move.
 ///
-/// Under [`DiagonalGap::Closed`] a gap has two states, one for each free quadrant, so that a path can touch
-/// the gap but not pass through it. Nothing is assumed about optimal paths.
+/// Under [`DiagonalGap::Closed`](mediant_grid::DiagonalGap::Closed) a gap has two states, one for each
+/// free quadrant, so that a path can touch the gap but not pass through it. Nothing is assumed about optimal
+/// paths.
 ///
 /// Meant for maps up to about 40 × 40: a state has up to 2^k edges, and with any-angle moves one to every
 /// vertex that it sees.
