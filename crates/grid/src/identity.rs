@@ -59,8 +59,21 @@ impl MapId {
     }
 
     /// This after the word of row y from column x on, a multiple of 64, has changed.
-    pub(crate) fn with_word(self, (x, y): (u32, u32), [before, after]: [u64; 2]) -> Self {
-        let position = position(x / 64, y);
+    pub(crate) fn with_word(self, (x, y): (u32, u32), words: [u64; 2]) -> Self {
+        self.with_term(position(x / 64, y), words)
+    }
+
+    /// The identity of a map of this size that is no grid of bits, before its words are in it.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn of_size(width: u32, height: u32) -> Self {
+        Self { width, height, digest: [0; 4] }
+    }
+
+    /// This after the word at a position has changed.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn with_term(self, position: u64, [before, after]: [u64; 2]) -> Self {
         self.plus(term(position, after).wrapping_sub(term(position, before)))
     }
 

@@ -138,10 +138,20 @@ mod table {
         /// # Errors
         /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
         pub fn new(k: FiniteK) -> Result<Self, KError> {
+            Self::with_costs(k, Cost::of_move)
+        }
+
+        /// The table of other costs of the moves of N(k), such as the least on a map whose cells have costs:
+        /// [`distance`](Self::distance) is then the cost of the cheapest path by these, provided that no move
+        /// costs more than a detour over its neighbors.
+        ///
+        /// # Errors
+        /// [`KError::TooLarge`] above [`MAX_K`](Self::MAX_K).
+        pub fn with_costs(k: FiniteK, cost: impl FnMut(Vector) -> Cost) -> Result<Self, KError> {
             if k.get() > Self::MAX_K {
                 return Err(KError::TooLarge { k: k.get().into(), max: Self::MAX_K });
             }
-            let costs: Vec<Cost> = Quadrant::new(k)?.iter().map(Cost::of_move).collect();
+            let costs: Vec<Cost> = Quadrant::new(k)?.iter().map(cost).collect();
             Ok(Self { depth: k.depth(), costs: costs.into_boxed_slice() })
         }
 

@@ -1,0 +1,102 @@
+//! Errors of cost surfaces.
+
+use mediant_grid::{Interrupted, Mismatch};
+use mediant_moves::FiniteK;
+use mediant_search::QueryError;
+
+/// The reason why there is no cost surface of some numbers, or no search graph of it.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CostsError {
+    /// A side is 0 or longer than 2²⁰ cells, or there are more than 2³² − 2²⁴ cells.
+    #[error(
+        "a cost surface of {width} columns and {height} rows: each side must have 1 to 1,048,576 cells, and both \
+         together about 4.2 billion at most, a frame included"
+    )]
+    Size {
+        /// The number of columns.
+        width: u64,
+        /// The number of rows.
+        height: u64,
+    },
+    /// Another number of costs than cells.
+    #[error("there are {found} costs for {expected} cells: give one for each cell, row by row")]
+    Count {
+        /// The number of costs.
+        found: usize,
+        /// The number of cells.
+        expected: u64,
+    },
+    /// A cost that is zero, negative, infinite or not a number.
+    #[error(
+        "the cost of cell ({x}, {y}) is {cost}: it must be a positive number; a cell that cannot be entered is \
+         marked as blocked, not by its cost"
+    )]
+    Cost {
+        /// The column.
+        x: u32,
+        /// The row.
+        y: u32,
+        /// The cost.
+        cost: f64,
+    },
+    /// Costs between which the integers of paths do not fit.
+    #[error(
+        "costs from {least} to {greatest} on one map: at most 65,536 times as much is exact on every map; raise the \
+         least cost, lower the greatest, or mark the dearest cells as blocked"
+    )]
+    Range {
+        /// The least.
+        least: f64,
+        /// The greatest.
+        greatest: f64,
+    },
+    /// The width or the height of a cell is no positive number, or one is more than 65,536 times the other.
+    #[error("cells of {x} × {y}: width and height must be positive numbers")]
+    CellSize {
+        /// The width.
+        x: f64,
+        /// The height.
+        y: f64,
+    },
+    /// A k above the greatest.
+    #[error("k = {k} on a cost surface: choose k = 2 to {max}")]
+    K {
+        /// The k.
+        k: FiniteK,
+        /// The greatest.
+        max: u32,
+    },
+    /// A cell outside the map.
+    #[error("cell ({x}, {y}) is outside the map")]
+    Outside {
+        /// The column.
+        x: u32,
+        /// The row.
+        y: u32,
+    },
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
+}
+
+/// The reason why a field on a cost surface cannot be made.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CostFieldError {
+    /// A source is blocked or outside the map.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// The limit is negative or not a number.
+    #[error("the limit of a field is {limit}: choose a cost from 0 on, or infinity")]
+    Limit {
+        /// The limit.
+        limit: f64,
+    },
+    /// Two fields that do not belong together.
+    #[error(transparent)]
+    Mismatch(#[from] Mismatch),
+    /// It was stopped before it was done.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
+}

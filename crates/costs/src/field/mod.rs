@@ -1,0 +1,289 @@
+//! Fields: the cost of every vertex to the nearest of one or many sources, and all that follows from it.
+
+mod buckets;
+mod directions;
+mod search;
+
+use std::sync::Arc;
+
+use mediant_grid::{Identity, Interrupt, Vertex};
+use mediant_moves::{Cost, Vector};
+use mediant_search::{End, Path};
+
+pub use self::directions::DirectionCode;
+use self::search::{Labels, NONE, search};
+use crate::{error::CostFieldError, graph::CostGraph, layout::SIDE};
+
+/// The sources of a field, its limit, and whether it tells the nearest source.
+///
+/// ```
+/// use mediant_costs::CostFieldQuery;
+/// let sources = [(0, 0), (7, 3)].map(Into::into);
+/// let query = CostFieldQuery::new(&sources).within(60.0).with_allocation();
+/// assert_eq!((query.limit, query.allocation), (60.0, true));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CostFieldQuery<'q> {
+    /// The vertices of cost 0. Without one the field is empty.
+    pub sources: &'q [Vertex],
+    /// The greatest cost in the field: it holds exactly the vertices that cost as much or less, where costs
+    /// that differ by a factor of at most 1 + 2⁻³¹ count as the same. Infinity is no limit.
+    pub limit: f64,
+    /// Whether the field tells which source is nearest ([`CostField::allocation`]): 4 bytes a vertex.
+    pub allocation: bool,
+}
+
+impl<'q> CostFieldQuery<'q> {
+    /// All that can be reached from the sources.
+    #[must_use]
+    pub const fn new(sources: &'q [Vertex]) -> Self {
+        Self { sources, limit: f64::INFINITY, allocation: false }
+    }
+
+    /// The same within a cost.
+    #[must_use]
+    pub const fn within(self, limit: f64) -> Self {
+        Self { limit, ..self }
+    }
+
+    /// The same with the nearest source of each vertex.
+    #[must_use]
+    pub const fn with_allocation(self) -> Self {
+        Self { allocation: true, ..self }
+    }
+}
+
+/// The cost of the cheapest path from every vertex to the nearest source: an accumulated cost surface, which
+/// GIS calls cost distance.
+///
+/// It takes 8 bytes a vertex. Directions and paths are not stored: they follow from the costs, which are
+/// exact. A move begins a cheapest path where the cost falls by that of the move. So they do not depend on
+/// the order of the search. **Ties:** of the moves that begin a cheapest path it takes the one with the
+/// lowest index in N(k); of equally near sources the allocation names the one with the least number.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostMap};
+/// use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
+/// use mediant_moves::FiniteK;
+///
+/// // The way along the road, at the bottom, is the cheapest.
+/// let map = CostMap::from_fn(5, 3, |x, y| Some(if y == 2 || x == 0 { 1.0 } else { 9.0 }))?;
+/// let graph = Arc::new(CostGraph::new(Arc::new(map), Rules::Center(CornerRule::Never), FiniteK::N8)?);
+/// let sources = [Vertex::new(0, 0)];
+/// let field = CostField::new(graph, CostFieldQuery::new(&sources), &Interrupt::NEVER)?;
+/// let expected = 4.0 + 2.0_f64.sqrt();
+/// assert!(field.get(Vertex::new(4, 2)).is_some_and(|cost| (cost - expected).abs() < 1e-9));
+/// let path = field.path_from(Vertex::new(4, 2)).expect("all cells are free");
+/// assert_eq!(path.to_string(), "(4, 2) → (1, 2) → (0, 1) → (0, 0)");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CostField {
+    graph: Arc<CostGraph>,
+    /// By state.
+    costs: Vec<u64>,
+    /// By state: the number of the nearest source.
+    allocation: Option<Vec<u32>>,
+    sources: Box<[Vertex]>,
+    queue_bytes: usize,
+}
+
+impl CostField {
+    /// The field of a query.
+    ///
+    /// # Errors
+    /// [`CostFieldError::Query`] for the first source that is blocked or outside the map;
+    /// [`CostFieldError::Limit`]; [`CostFieldError::Interrupted`].
+    pub fn new(
+        graph: Arc<CostGraph>,
+        query: CostFieldQuery<'_>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, CostFieldError> {
+        if query.limit.is_nan() || query.limit < 0.0 {
+            return Err(CostFieldError::Limit { limit: query.limit });
+        }
+        query.sources.iter().try_for_each(|&at| graph.check(End::Start, at))?;
+        let starts: Vec<(usize, u32)> = query
+            .sources
+            .iter()
+            .zip(0..)
+            .filter_map(|(&at, number)| Some((graph.end(at)?, number)))
+            .collect();
+        let limit = graph.greatest_cost(query.limit);
+        let Labels { mut costs, sources: allocation, queue_bytes } =
+            search(&graph, &starts, limit, query.allocation, interrupt)?;
+        costs.shrink_to_fit();
+        Ok(Self { graph, costs, allocation, sources: query.sources.into(), queue_bytes })
+    }
+
+    /// The memory that a field of a graph takes, in bytes, without the queue of its search, which takes a few
+    /// bytes for each vertex on its front.
+    #[must_use]
+    pub fn bytes(graph: &CostGraph, allocation: bool) -> usize {
+        let each = size_of::<u64>() + if allocation { size_of::<u32>() } else { 0 };
+        graph.states().saturating_mul(each)
+    }
+
+    /// The memory of the search's queue, in bytes, beside that of the field.
+    #[must_use]
+    pub const fn queue_bytes(&self) -> usize {
+        self.queue_bytes
+    }
+
+    /// The search graph.
+    #[must_use]
+    pub const fn graph(&self) -> &Arc<CostGraph> {
+        &self.graph
+    }
+
+    /// The identity: its surface, rules and k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        self.graph.identity()
+    }
+
+    /// The sources of its query.
+    #[must_use]
+    pub const fn sources(&self) -> &[Vertex] {
+        &self.sources
+    }
+
+    /// The state of a path that ends at a vertex.
+    fn state(&self, at: Vertex) -> Option<usize> {
+        if self.graph.is_free(at) { self.graph.end(at) } else { None }
+    }
+
+    /// The cost of a state that is in the field.
+    fn known(&self, state: usize) -> Option<u64> {
+        self.costs.get(state).copied().filter(|&cost| cost != NONE)
+    }
+
+    /// The cost of a vertex in units of the map, 0 at a source; `None` where it is not in the field: where it
+    /// is blocked, cannot be reached, costs more than the limit, or is outside the map.
+    #[must_use]
+    pub fn cost(&self, at: Vertex) -> Option<Cost> {
+        match self.state(at) {
+            Some(state) => self.known(state).map(Cost::from_bits),
+            // A closed gap that no path leaves or enters.
+            None => self.sources.contains(&at).then_some(Cost::ZERO),
+        }
+    }
+
+    /// The same as a number.
+    #[must_use]
+    pub fn get(&self, at: Vertex) -> Option<f64> {
+        Some(self.graph.to_f64(self.cost(at)?))
+    }
+
+    /// The number of the nearest source of a vertex, by the order of the query; of equally near ones the
+    /// least. `None` where the vertex is not in the field, or the query did not ask for it.
+    #[must_use]
+    pub fn allocation(&self, at: Vertex) -> Option<u32> {
+        let numbers = self.allocation.as_ref()?;
+        match self.state(at) {
+            Some(state) => self.known(state).and_then(|_| numbers.get(state).copied()),
+            None => self.sources.iter().zip(0..).find(|&(&source, _)| source == at).map(|(_, number)| number),
+        }
+    }
+
+    /// The first move of a cheapest path from a vertex to its nearest source; `None` at a source, and where
+    /// the vertex is not in the field.
+    #[must_use]
+    pub fn direction(&self, at: Vertex) -> Option<Vector> {
+        self.first_move(self.state(at)?).map(|(v, _)| v)
+    }
+
+    /// The first move from a state, and the state to which it leads.
+    fn first_move(&self, state: usize) -> Option<(Vector, usize)> {
+        let cost = self.known(state).filter(|&cost| cost > 0)?;
+        self.graph.moves_from(state).find_map(|(of, to)| {
+            let rest = self.known(to).filter(|&rest| rest < cost)?;
+            (self.graph.cost_of(of, state)? == cost - rest).then_some((of.vector, to))
+        })
+    }
+
+    /// The vertex to which [`direction`](Self::direction) leads.
+    #[must_use]
+    pub fn next(&self, at: Vertex) -> Option<Vertex> {
+        Some(at + self.direction(at)?)
+    }
+
+    /// The path along the directions from a vertex to its nearest source, with waypoints where the move
+    /// changes; `None` where the vertex is not in the field. No path over N(k) to any source is cheaper.
+    /// [`CostGraph::crossings`] has every cell that it crosses.
+    #[must_use]
+    pub fn path_from(&self, at: Vertex) -> Option<Path> {
+        self.cost(at)?;
+        let mut waypoints = vec![at];
+        let mut next = self.state(at);
+        let (mut at, mut last) = (at, None);
+        // The cost falls with each move.
+        while let Some((v, state)) = next.and_then(|state| self.first_move(state)) {
+            at = at + v;
+            match waypoints.last_mut().filter(|_| last == Some(v)) {
+                Some(end) => *end = at,
+                None => waypoints.push(at),
+            }
+            (last, next) = (Some(v), Some(state));
+        }
+        Some(Path::new(waypoints))
+    }
+
+    /// The costs of all vertices, row by row; infinity where a vertex is not in the field. No second array is
+    /// made: the field's own memory is put in order, a row of tiles at a time.
+    #[must_use]
+    pub fn into_rows(mut self) -> Vec<f64> {
+        self.forget_gaps();
+        let Self { graph, mut costs, .. } = self;
+        let (layout, (width, height), unit) = (graph.layout(), graph.size(), graph.map().unit());
+        let is_blocked = |at: usize| graph.is_center() && graph.map().weights()[at] == 0;
+        let mut rows = Vec::new();
+        for band in 0..height.div_ceil(SIDE) {
+            let range = layout.band(band);
+            rows.clear();
+            rows.extend_from_slice(&costs[range.clone()]);
+            for y in band * SIDE..height.min((band + 1) * SIDE) {
+                // What is written lies before this row of tiles: rows have no frame.
+                let first = y as usize * width as usize;
+                for (x, to) in (0..width as i32).zip(&mut costs[first..first + width as usize]) {
+                    let at = layout.position(x, y as i32);
+                    let cost = rows[at - range.start];
+                    let is_in = cost != NONE && !is_blocked(at);
+                    *to = (if is_in { cost as f64 * unit } else { f64::INFINITY }).to_bits();
+                }
+            }
+        }
+        costs.truncate(width as usize * height as usize);
+        // The standard library keeps the memory here.
+        costs.into_iter().map(f64::from_bits).collect()
+    }
+
+    /// Takes the gaps at which no path ends out of the field.
+    fn forget_gaps(&mut self) {
+        for at in self.graph.scanner().gaps.positions() {
+            if self.graph.map().weights()[at] == 0 {
+                self.costs[at] = if self.sources.contains(&self.graph.vertex(at)) { 0 } else { NONE };
+            }
+        }
+    }
+
+    /// For each vertex, row by row, the sum of its costs in two fields: what the cheapest path from a source
+    /// of one to a source of the other costs that leads over it. Those of little more than the least are a
+    /// *corridor*. Infinity where a vertex is not in both fields.
+    ///
+    /// # Errors
+    /// [`CostFieldError::Mismatch`] for fields of other surfaces, rules or k.
+    pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, CostFieldError> {
+        self.identity().check("the field", ("the other field", other.identity()))?;
+        let sum = |at| Some(self.graph.to_f64(self.cost(at)? + other.cost(at)?));
+        Ok(self.vertices().map(|at| sum(at).unwrap_or(f64::INFINITY)).collect())
+    }
+
+    /// All vertices, row by row.
+    fn vertices(&self) -> impl Iterator<Item = Vertex> + use<> {
+        let (width, height) = self.graph.size();
+        (0..height as i32).flat_map(move |y| (0..width as i32).map(move |x| Vertex::new(x, y)))
+    }
+}

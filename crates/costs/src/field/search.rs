@@ -1,0 +1,227 @@
+//! The search behind a field.
+
+use mediant_grid::{Interrupt, Interrupted, Rules};
+
+use super::buckets::Buckets;
+use crate::{graph::CostGraph, scan::Visit};
+
+/// A state that no path reaches.
+pub(super) const NONE: u64 = u64::MAX;
+
+/// The costs of all states, and, if asked for, the least number of the sources that are as near as any.
+#[derive(Debug)]
+pub(super) struct Labels {
+    pub(super) costs: Vec<u64>,
+    pub(super) sources: Option<Vec<u32>>,
+    /// The memory of the queue when the search was done, in bytes.
+    pub(super) queue_bytes: usize,
+}
+
+/// The states between two questions of an interrupt.
+const PIECE: usize = 1 << 14;
+const STAGE: &str = "searching the field";
+
+/// Dijkstra's algorithm from sources, each a state with its number, up to a cost.
+pub(super) fn search(
+    graph: &CostGraph,
+    sources: &[(usize, u32)],
+    limit: u64,
+    with_sources: bool,
+    interrupt: &Interrupt,
+) -> Result<Labels, Interrupted> {
+    let is_center = matches!(graph.rules(), Rules::Center(_));
+    let mut labels = Labels {
+        costs: unreached(graph, interrupt)?,
+        sources: with_sources.then(|| vec![u32::MAX; graph.states()]),
+        queue_bytes: 0,
+    };
+    match (graph.k().get(), is_center) {
+        (2, true) => labels.run::<2>(graph, sources, limit, interrupt),
+        (3, true) => labels.run::<3>(graph, sources, limit, interrupt),
+        (4, true) => labels.run::<4>(graph, sources, limit, interrupt),
+        _ => labels.run::<0>(graph, sources, limit, interrupt),
+    }?;
+    Ok(labels)
+}
+
+/// The costs before a search. At centers a blocked cell has cost 0, which no path beats.
+fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Interrupted> {
+    let states = graph.states();
+    let weights = graph.map().weights();
+    let mut costs = Vec::with_capacity(states);
+    for piece in weights.chunks(1 << 18) {
+        interrupt.check("filling memory")?;
+        match graph.rules() {
+            Rules::Center(_) => costs.extend(piece.iter().map(|&weight| if weight > 0 { NONE } else { 0 })),
+            Rules::Corner(_) => costs.resize(costs.len() + piece.len(), NONE),
+        }
+    }
+    costs.resize(states, NONE);
+    Ok(costs)
+}
+
+impl Labels {
+    fn run<const K: u32>(
+        &mut self,
+        graph: &CostGraph,
+        sources: &[(usize, u32)],
+        limit: u64,
+        interrupt: &Interrupt,
+    ) -> Result<(), Interrupted> {
+        let (least, greatest) = graph.scanner().bounds(graph.map().scale());
+        let mut queue = Buckets::new(least, greatest);
+        match self.sources.take() {
+            None => {
+                let mut state = Costs { costs: &mut self.costs, queue: &mut queue };
+                run::<K, _>(graph, sources, &mut state, limit, interrupt)?;
+            }
+            Some(mut numbers) => {
+                let costs = Costs { costs: &mut self.costs, queue: &mut queue };
+                let mut state = Numbered { costs, numbers: &mut numbers, from: 0 };
+                run::<K, _>(graph, sources, &mut state, limit, interrupt)?;
+                self.sources = Some(numbers);
+            }
+        }
+        self.queue_bytes = queue.memory_bytes();
+        if limit != NONE {
+            for piece in self.costs.chunks_mut(1 << 18) {
+                interrupt.check("filling memory")?;
+                piece.iter_mut().filter(|cost| **cost > limit).for_each(|cost| *cost = NONE);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a search writes.
+trait Label: Visit {
+    fn queue(&mut self) -> &mut Buckets;
+
+    fn cost(&self, state: usize) -> u64;
+
+    /// The state is scanned next.
+    fn scans(&mut self, _state: usize) {}
+
+    /// The state is a source.
+    fn starts(&mut self, state: usize, number: u32);
+}
+
+fn run<const K: u32, L: Label>(
+    graph: &CostGraph,
+    sources: &[(usize, u32)],
+    label: &mut L,
+    limit: u64,
+    interrupt: &Interrupt,
+) -> Result<(), Interrupted> {
+    let (scanner, weights) = (graph.scanner(), graph.map().weights());
+    for &(state, number) in sources {
+        label.starts(state, number);
+    }
+    let mut states = Vec::new();
+    while label.queue().take(&mut states) {
+        if label.queue().start() > limit {
+            break;
+        }
+        for piece in states.chunks(PIECE) {
+            interrupt.check(STAGE)?;
+            let current = label.queue().current();
+            for &state in piece {
+                let state = state as usize;
+                let cost = label.cost(state);
+                // It was queued by a longer path, and is done.
+                if label.queue().of(cost) == current {
+                    label.scans(state);
+                    scanner.scan::<K>(weights, (state, cost), label);
+                }
+            }
+        }
+        states.clear();
+    }
+    Ok(())
+}
+
+/// Costs alone.
+struct Costs<'s> {
+    costs: &'s mut [u64],
+    queue: &'s mut Buckets,
+}
+
+impl Visit for Costs<'_> {
+    #[inline]
+    fn known(&self, to: usize) -> u64 {
+        self.costs[to]
+    }
+
+    #[inline]
+    fn relax(&mut self, _: usize, to: usize, cost: u64) {
+        let before = std::mem::replace(&mut self.costs[to], cost);
+        self.queue.push(to, cost, before);
+    }
+}
+
+impl Label for Costs<'_> {
+    #[inline]
+    fn queue(&mut self) -> &mut Buckets {
+        self.queue
+    }
+
+    #[inline]
+    fn cost(&self, state: usize) -> u64 {
+        self.costs[state]
+    }
+
+    fn starts(&mut self, state: usize, _: u32) {
+        if self.costs[state] > 0 {
+            self.relax(0, state, 0);
+        }
+    }
+}
+
+/// Costs with the numbers of sources.
+struct Numbered<'s> {
+    costs: Costs<'s>,
+    numbers: &'s mut [u32],
+    /// The number at the state that is scanned.
+    from: u32,
+}
+
+impl Visit for Numbered<'_> {
+    /// A path that costs as much as the best one known counts as better if its source has a lesser number.
+    #[inline]
+    fn known(&self, to: usize) -> u64 {
+        let known = self.costs.costs[to];
+        // Blocked cells and sources have cost 0, which stays.
+        if known > 0 && known < NONE && self.from < self.numbers[to] { known + 1 } else { known }
+    }
+
+    #[inline]
+    fn relax(&mut self, by: usize, to: usize, cost: u64) {
+        self.numbers[to] = self.from;
+        self.costs.relax(by, to, cost);
+    }
+}
+
+impl Label for Numbered<'_> {
+    #[inline]
+    fn queue(&mut self) -> &mut Buckets {
+        self.costs.queue
+    }
+
+    #[inline]
+    fn cost(&self, state: usize) -> u64 {
+        self.costs.costs[state]
+    }
+
+    #[inline]
+    fn scans(&mut self, state: usize) {
+        self.from = self.numbers[state];
+    }
+
+    fn starts(&mut self, state: usize, number: u32) {
+        // The first of several numbers at one place is the least.
+        if self.costs.costs[state] > 0 {
+            self.from = number;
+            self.relax(0, state, 0);
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The search graph of a cost surface.
+
+use std::sync::Arc;
+
+use mediant_grid::{Identity, PlacementKind, Rules, Vertex};
+use mediant_moves::{Cost, CostTable, FiniteK, Vector};
+use mediant_search::{End, Path, QueryError};
+
+use crate::{
+    error::CostsError,
+    gaps::Gaps,
+    layout::{Layout, Steps},
+    map::CostMap,
+    moves::{Move, Moves},
+    scan::Scanner,
+};
+
+/// The search graph of a cost surface: its vertices by a placement, joined by the moves of N(k) that are
+/// legal by a rule of motion. A move costs the integral of the cells' costs along it, as an integer of the
+/// map's [unit](CostMap::unit).
+///
+/// No edge is stored, and searches share it.
+///
+/// ```
+/// use std::sync::Arc;
+/// use mediant_costs::{CostGraph, CostMap};
+/// use mediant_grid::{CornerRule, Rules, Vertex};
+/// use mediant_moves::{FiniteK, Vector};
+///
+/// let map = Arc::new(CostMap::from_fn(3, 2, |x, y| Some(f64::from(1 + 2 * x + y)))?);
+/// let graph = CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N16)?;
+/// // (2, 1) crosses cells of cost 1, 3, 4 and 6, a quarter of its length each.
+/// let cost = graph.move_cost(Vertex::new(0, 0), Vector::new(2, 1));
+/// let expected = 5.0_f64.sqrt() * (1.0 + 3.0 + 4.0 + 6.0) / 4.0;
+/// assert!(cost.is_some_and(|cost| (graph.to_f64(cost) - expected).abs() < 1e-9));
+/// # Ok::<(), mediant_costs::CostsError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct CostGraph {
+    map: Arc<CostMap>,
+    k: FiniteK,
+    scanner: Scanner,
+    /// h_k over cells of the least cost.
+    least: CostTable,
+}
+
+impl CostGraph {
+    /// The greatest k: 256 moves, up to 13 cells long along an axis.
+    pub const MAX_K: u32 = 8;
+
+    /// The search graph of a surface under some rules and N(k).
+    ///
+    /// # Errors
+    /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K).
+    pub fn new(map: Arc<CostMap>, rules: Rules, k: FiniteK) -> Result<Self, CostsError> {
+        let too_large = CostsError::K { k, max: Self::MAX_K };
+        if k.get() > Self::MAX_K {
+            return Err(too_large);
+        }
+        let moves = Moves::new(rules.placement(), k, map.scale()).map_err(|_| too_large)?;
+        let least = CostTable::with_costs(k, |v| moves.least(v)).map_err(|_| too_large)?;
+        let steps = Steps::new(map.layout());
+        let is_closed = rules == Rules::Corner(mediant_grid::DiagonalGap::Closed);
+        let gaps = if is_closed { Gaps::of(&map, &steps) } else { Gaps::default() };
+        let scanner = Scanner::new(moves, steps, gaps, rules);
+        Ok(Self { map, k, scanner, least })
+    }
+
+    /// The surface.
+    #[must_use]
+    pub const fn map(&self) -> &Arc<CostMap> {
+        &self.map
+    }
+
+    /// The k of the neighborhood.
+    #[must_use]
+    pub const fn k(&self) -> FiniteK {
+        self.k
+    }
+
+    /// The placement and its rule of motion.
+    #[must_use]
+    pub const fn rules(&self) -> Rules {
+        self.scanner.rules
+    }
+
+    /// The identity: its surface, rules and k.
+    #[must_use]
+    pub fn identity(&self) -> Identity {
+        Identity { map: Some(self.map.id()), rules: self.rules(), k: Some(self.k.into()) }
+    }
+
+    /// The numbers of columns and rows of vertices.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        let more = match self.rules().placement() {
+            PlacementKind::Center => 0,
+            PlacementKind::Corner => 1,
+        };
+        (self.map.width() + more, self.map.height() + more)
+    }
+
+    /// Whether a vertex is free: at centers its cell, at corners one of the four cells around it. Those
+    /// outside the map are not.
+    #[must_use]
+    pub fn is_free(&self, at: Vertex) -> bool {
+        let Some(position) = self.position(at) else { return false };
+        let from = self.scanner.steps.from(position);
+        let cells: &[(i8, i8)] = match self.rules().placement() {
+            PlacementKind::Center => &[(0, 0)],
+            PlacementKind::Corner => &[(0, 0), (-1, 0), (0, -1), (-1, -1)],
+        };
+        cells.iter().any(|&(dx, dy)| self.map.weights()[from.to(dx, dy)] > 0)
+    }
+
+    /// Checks that a vertex can be this end of a path.
+    ///
+    /// # Errors
+    /// [`QueryError::Outside`] or [`QueryError::Blocked`].
+    pub fn check(&self, end: End, at: Vertex) -> Result<(), QueryError> {
+        if self.position(at).is_none() {
+            let (width, height) = self.size();
+            let last = Vertex::new(width as i32 - 1, height as i32 - 1);
+            return Err(QueryError::Outside { end, at, last });
+        }
+        if self.is_free(at) { Ok(()) } else { Err(QueryError::Blocked { end, at }) }
+    }
+
+    /// The cost of a move from a vertex; `None` if it is no legal move of N(k) there.
+    #[must_use]
+    pub fn move_cost(&self, from: Vertex, v: Vector) -> Option<Cost> {
+        let at = self.position(from)?;
+        self.cost_of(self.known_move(v)?, at).map(Cost::from_bits)
+    }
+
+    /// The cost of a path over N(k), whose waypoints are joined by one move each, repeated; `None` if a move
+    /// is not legal. (It is not asked whether the path passes a closed gap.)
+    #[must_use]
+    pub fn path_cost(&self, path: &Path) -> Option<Cost> {
+        steps(path).try_fold(Cost::ZERO, |cost, (from, v)| Some(cost + self.move_cost(from, v)?))
+    }
+
+    /// A cost as a number: times the map's unit.
+    #[must_use]
+    pub fn to_f64(&self, cost: Cost) -> f64 {
+        cost.to_bits() as f64 * self.map.unit()
+    }
+
+    /// The cost of the cheapest path by a displacement over cells of the least cost: h_k, consistent.
+    #[must_use]
+    #[inline]
+    pub fn least_cost(&self, d: Vector) -> Cost {
+        self.least.distance(d)
+    }
+
+    /// The memory used beyond the surface, in bytes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        self.scanner.moves.memory_bytes() + self.scanner.gaps.len() * size_of::<u32>()
+    }
+
+    /// The cells that a path crosses, in their order on the way, each with the length in it, in the unit of the
+    /// cell size: the sum of length · cost is the cost of the path. Of a move along a grid line it is the cell
+    /// whose cost counts. Cells that are touched in a corner alone are left out. Empty for a path with a move
+    /// that is not legal.
+    #[must_use]
+    pub fn crossings(&self, path: &Path) -> Vec<((u32, u32), f64)> {
+        let mut crossings: Vec<((u32, u32), f64)> = Vec::new();
+        for (from, v) in steps(path) {
+            let Some((at, of)) = self.position(from).zip(self.known_move(v)) else { return Vec::new() };
+            if self.scanner.sum(self.map.weights(), at, of).is_none() {
+                return Vec::new();
+            }
+            for (cell, length) in self.scanner.crossed(self.map.as_ref(), at, of) {
+                match crossings.last_mut().filter(|(last, _)| *last == cell) {
+                    Some((_, known)) => *known += length,
+                    None => crossings.push((cell, length)),
+                }
+            }
+        }
+        crossings
+    }
+
+    fn known_move(&self, v: Vector) -> Option<&Move> {
+        self.scanner.moves.all().iter().find(|known| known.vector == v)
+    }
+
+    /// The cost of a move from a state; `None` if it is not legal there.
+    pub(crate) fn cost_of(&self, of: &Move, state: usize) -> Option<u64> {
+        let at = self.scanner.gaps.position(state);
+        self.scanner.sum(self.map.weights(), at, of).map(|sum| of.factor.cost(sum))
+    }
+
+    /// The moves from a state that closed gaps allow, each with the state to which it leads.
+    pub(crate) fn moves_from(&self, state: usize) -> impl Iterator<Item = (&Move, usize)> {
+        self.scanner
+            .moves
+            .all()
+            .iter()
+            .filter_map(move |of| Some((of, self.scanner.target(self.map.weights(), state, of)?)))
+    }
+
+    /// The number of states.
+    pub(crate) fn states(&self) -> usize {
+        self.layout().len() + self.scanner.gaps.len()
+    }
+
+    /// The state of a path that ends at a vertex; `None` outside, and at a closed gap whose own cell is
+    /// blocked.
+    pub(crate) fn end(&self, at: Vertex) -> Option<usize> {
+        self.scanner.gaps.end(self.map.weights(), self.position(at)?)
+    }
+
+    /// The greatest cost within a limit, with room for the rounding of both.
+    pub(crate) fn greatest_cost(&self, limit: f64) -> u64 {
+        // The cast saturates.
+        let cost = (limit / self.map.unit()) as u64;
+        cost.saturating_add(cost >> 31).saturating_add(1)
+    }
+
+    /// Whether vertices are the centers of cells.
+    pub(crate) const fn is_center(&self) -> bool {
+        matches!(self.rules().placement(), PlacementKind::Center)
+    }
+
+    pub(crate) const fn scanner(&self) -> &Scanner {
+        &self.scanner
+    }
+
+    pub(crate) fn layout(&self) -> Layout {
+        self.map.layout()
+    }
+
+    /// The position of a vertex; `None` outside the map.
+    pub(crate) fn position(&self, at: Vertex) -> Option<usize> {
+        let (width, height) = self.size();
+        let is_on = (0..width as i32).contains(&at.x) && (0..height as i32).contains(&at.y);
+        is_on.then(|| self.layout().position(at.x, at.y))
+    }
+
+    /// The vertex of a state.
+    pub(crate) fn vertex(&self, state: usize) -> Vertex {
+        let (x, y) = self.layout().cell(self.scanner.gaps.position(state));
+        Vertex::new(x, y)
+    }
+}
+
+/// The moves of a path over N(k), each with the vertex where it begins.
+fn steps(path: &Path) -> impl Iterator<Item = (Vertex, Vector)> {
+    path.waypoints().windows(2).filter(|ends| ends[0] != ends[1]).flat_map(|ends| {
+        let (from, d) = (ends[0], ends[0].to(ends[1]));
+        let times = d.gcd() as i32;
+        let v = Vector::new(d.x / times, d.y / times);
+        (0..times).map(move |step| (Vertex::new(from.x + step * v.x, from.y + step * v.y), v))
+    })
+}

@@ -1,0 +1,40 @@
+//! Least-cost paths, and fields of least costs, over the 2^k neighborhoods on grids whose cells have a cost.
+//!
+//! A cell has a cost a unit of length. A move costs the integral along its segment: the sum, over the cells
+//! that it crosses, of the length in the cell times the cell's cost. This is what `MCP_Geometric` of
+//! scikit-image, the cost distance of ArcGIS and `r.cost` of GRASS compute for 8 neighbors, and `r.cost -k`
+//! for 16. Here it is defined for every k, at centers and at corners.
+//!
+//! - [`CostMap`] is the surface, [`CostGraph`] its search graph under rules of motion and N(k).
+//! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit, allocation,
+//!   directions, paths and corridors.
+//! - [`CostAStar`] finds one path after another.
+//!
+//! **The key decision: costs are integers here, too.** The sum of shares times weights is exact, its product
+//! with the length of a share is rounded once (module `moves`), and all else is integer sums. So results do
+//! not depend on the order of work, nor on the platform; and where all cells cost 1 they are those of
+//! `mediant-search`, to the last bit. The unit follows the map (module `scale`).
+//!
+//! What can be promised is the least cost over N(k) on the raster. No bound against all paths is known.
+//!
+//! Not here: the engines for maps on which all cells cost the same, which are many times as fast there, and
+//! of which nothing is compiled here but the words of queries and answers.
+
+mod astar;
+mod error;
+mod field;
+mod gaps;
+mod graph;
+mod layout;
+mod map;
+mod moves;
+#[cfg(doctest)]
+mod readme;
+mod scale;
+mod scan;
+
+pub use astar::CostAStar;
+pub use error::{CostFieldError, CostsError};
+pub use field::{CostField, CostFieldQuery, DirectionCode};
+pub use graph::CostGraph;
+pub use map::CostMap;
