@@ -133,6 +133,15 @@ impl CostGraph {
         self.cost_of(self.known_move(v)?, at).map(Cost::from_bits)
     }
 
+    /// The cost of a move over cells whose weights have this sum, each times its share of the move's length:
+    /// `None` for a vector that is no move of N(k). A weight is the cell's cost in the map's own integers; the
+    /// shares are in parts of 2 |dx| |dy| between centers and |dx| |dy| between corners, where 0 counts as 1.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn cost_of_sum(&self, v: Vector, sum: u64) -> Option<Cost> {
+        self.known_move(v).map(|of| Cost::from_bits(of.factor.cost(sum)))
+    }
+
     /// The cost of a path over N(k), whose waypoints are joined by one move each, repeated; `None` if a move
     /// is not legal. (It is not asked whether the path passes a closed gap.)
     #[must_use]

@@ -155,11 +155,10 @@ impl Steps {
             let place = |n: i64| bit * i64::from(LOCAL[n.rem_euclid(16) as usize]);
             (to.div_euclid(16) * along * TILE as i64 + place(to) - place(at as i64)) as i32
         };
-        let table = |along: i64, bit: i64| {
+        let table = |along: i64, bit: i64| -> Box<[[i32; SPAN]; SIDE as usize]> {
             Box::new(std::array::from_fn(|at| std::array::from_fn(|d| beside(at, d, along, bit))))
         };
-        let (x, y): (Box<[[i32; SPAN]; 16]>, Box<[[i32; SPAN]; 16]>) =
-            (table(1, 1), table(i64::from(layout.columns), 2));
+        let (x, y) = (table(1, 1), table(i64::from(layout.columns), 2));
         let near = Box::new(std::array::from_fn(|position| {
             let (column, row) = local(position);
             let four = |table: &[i32; SPAN]| [-2, -1, 1, 2].map(|d| table[(d + REACH) as usize]);

@@ -11,8 +11,9 @@
 //!
 //! **One rounding.** The cost is the sum times the length of a share. That length is a factor in fixed point,
 //! with as many digits as fit beside the greatest sum; the product is rounded to the nearest unit. Both
-//! roundings together are less than one unit. Where all costs are 1, the cost of a move is, to the last bit,
-//! that of the engines without costs ([`Cost::of_move`]; tested for every move up to k = 8).
+//! roundings together are less than one unit. The factor is rounded such that a move over cells of the least
+//! weight costs the integer nearest to its exact cost. So where all costs are 1, a move costs, to the last
+//! bit, what it costs the engines without costs ([`Cost::of_move`]; tested for every move up to k = 8).
 
 use mediant_grid::PlacementKind;
 use mediant_moves::{Cost, FiniteK, KError, Neighborhood, Vector};
@@ -42,8 +43,13 @@ impl Factor {
         let greatest = u64::from(shares) * u64::from(scale.greatest);
         let shift = greatest.leading_zeros();
         // Below 2⁶⁴, since no move costs 2⁶³ units.
-        let factor = scale.units(length) / f64::from(shares) * 2.0_f64.powi(64 - shift as i32);
-        Self { factor: factor.round() as u64, shift }
+        let exact = scale.units(length) / f64::from(shares) * 2.0_f64.powi(64 - shift as i32);
+        let least = (scale.units(length) * f64::from(scale.least)).round() as u64;
+        let sum = u64::from(shares) * u64::from(scale.least);
+        // From one factor to the next, the cost of the least sum grows by less than a unit.
+        let near =
+            [exact.round(), exact.floor(), exact.ceil()].map(|factor| Self { factor: factor as u64, shift });
+        near.into_iter().find(|factor| factor.cost(sum) == least).unwrap_or(near[0])
     }
 
     /// The cost of a sum of shares times weights, rounded to the nearest unit.

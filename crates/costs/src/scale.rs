@@ -60,7 +60,7 @@ impl Scale {
         let longest =
             (vertices as f64 + 64.0) * (x * x + y * y).sqrt() * f64::from(greatest) * exp2(weight_exponent);
         // What is left of 63 digits.
-        let digits = (62 - floor_log2(longest / straight) - 1).min(DIGITS.0);
+        let digits = (62 - floor_log2(longest) + floor_log2(straight)).min(DIGITS.0);
         if digits < DIGITS.1 {
             return Err(range);
         }
