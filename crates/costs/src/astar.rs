@@ -116,9 +116,9 @@ impl CostAStar {
         }
     }
 
-    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses. `K` is that
-    /// of a scan.
-    fn run<const K: u32>(&mut self, observer: &mut impl Observer) -> SearchStatus {
+    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses. `K` and
+    /// `CENTER` are those of a scan.
+    fn run<const K: u32, const CENTER: bool>(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { graph, search, goal, is_guided, .. } = self;
         let (graph, goal, is_guided): (&CostGraph, Goal, bool) = (graph, *goal, *is_guided);
         let (scanner, weights) = (graph.scanner(), graph.map().weights());
@@ -143,7 +143,7 @@ impl CostAStar {
                 observer.reached(at, node.g);
             }
             let mut relaxing = Relaxing { graph, goal, is_guided, at, weights, nodes, open, observer };
-            scanner.scan::<K>(weights, (state, node.g.to_bits()), &mut relaxing);
+            scanner.scan::<K, CENTER>(weights, (state, node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
     }
@@ -246,10 +246,16 @@ impl Planner for CostAStar {
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if self.status == SearchStatus::Searching {
             self.status = match (self.graph.k().get(), self.graph.is_center()) {
-                (2, true) => self.run::<2>(observer),
-                (3, true) => self.run::<3>(observer),
-                (4, true) => self.run::<4>(observer),
-                _ => self.run::<0>(observer),
+                (2, true) => self.run::<2, true>(observer),
+                (3, true) => self.run::<3, true>(observer),
+                (4, true) => self.run::<4, true>(observer),
+                (5, true) => self.run::<5, true>(observer),
+                (_, true) => self.run::<6, true>(observer),
+                (2, false) => self.run::<2, false>(observer),
+                (3, false) => self.run::<3, false>(observer),
+                (4, false) => self.run::<4, false>(observer),
+                (5, false) => self.run::<5, false>(observer),
+                (_, false) => self.run::<6, false>(observer),
             };
         }
         Ok(self.status)

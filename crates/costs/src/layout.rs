@@ -115,8 +115,10 @@ const fn local(position: usize) -> (usize, usize) {
     (x as usize, y as usize)
 }
 
-/// How many displacements along an axis a table holds.
-const SPAN: usize = 2 * REACH as usize + 1;
+/// How many displacements along an axis a table holds: a power of two, so that a masked index needs no check.
+const SPAN: usize = 32;
+
+const _: () = assert!(2 * REACH < SPAN as i32);
 
 /// The differences between the positions of a cell and of those around it. They are those along x plus those
 /// along y.
@@ -126,9 +128,12 @@ pub(crate) struct Steps {
     x: Box<[[i32; SPAN]; SIDE as usize]>,
     /// By the row in the tile, then by dy + `REACH`.
     y: Box<[[i32; SPAN]; SIDE as usize]>,
-    /// By the position in the tile: those of −2, −1, 1, 2 along x, then along y.
-    near: Box<[[i32; 8]; TILE]>,
+    /// By the position in the tile: those of −3, −2, −1, 1, 2, 3 along x, then along y.
+    near: Box<[Near<i32>; TILE]>,
 }
+
+/// The steps by −3, −2, −1, 1, 2, 3 along x, then along y.
+type Near<T> = [[T; 6]; 2];
 
 /// The steps from one position.
 #[derive(Clone, Copy)]
@@ -142,7 +147,7 @@ impl StepsFrom<'_> {
     /// The position of what lies (dx, dy) from here.
     #[inline]
     pub(crate) fn to(self, dx: i8, dy: i8) -> usize {
-        let place = |d: i8| (i32::from(d) + REACH) as usize;
+        let place = |d: i8| (i32::from(d) + REACH) as usize % SPAN;
         self.position.wrapping_add_signed((self.x[place(dx)] + self.y[place(dy)]) as isize)
     }
 }
@@ -161,9 +166,7 @@ impl Steps {
         let (x, y) = (table(1, 1), table(i64::from(layout.columns), 2));
         let near = Box::new(std::array::from_fn(|position| {
             let (column, row) = local(position);
-            let four = |table: &[i32; SPAN]| [-2, -1, 1, 2].map(|d| table[(d + REACH) as usize]);
-            let ([a, b, c, d], [e, f, g, h]) = (four(&x[column]), four(&y[row]));
-            [a, b, c, d, e, f, g, h]
+            [&x[column], &y[row]].map(|steps| [-3, -2, -1, 1, 2, 3].map(|d| steps[(d + REACH) as usize]))
         }));
         Self { x, y, near }
     }
@@ -174,10 +177,10 @@ impl Steps {
         StepsFrom { position, x: &self.x[column], y: &self.y[row] }
     }
 
-    /// The steps by −2, −1, 1, 2 along x, then along y.
+    /// The steps by −3, −2, −1, 1, 2, 3 along x, then along y.
     #[inline]
-    pub(crate) fn near(&self, position: usize) -> [isize; 8] {
-        self.near[position % TILE].map(|step| step as isize)
+    pub(crate) fn near(&self, position: usize) -> Near<isize> {
+        self.near[position % TILE].map(|steps| steps.map(|step| step as isize))
     }
 }
 
@@ -201,9 +204,9 @@ mod tests {
                         let to = layout.position(x + i32::from(dx), y + i32::from(dy));
                         assert_eq!(from.to(dx, dy), to, "({x}, {y}) + ({dx}, {dy})");
                     }
-                    let near = [(-2, 0), (-1, 0), (1, 0), (2, 0), (0, -2), (0, -1), (0, 1), (0, 2)];
-                    let near = near.map(|(dx, dy)| from.to(dx, dy) as isize - at as isize);
-                    assert_eq!(steps.near(at), near);
+                    let step = |dx, dy| from.to(dx, dy) as isize - at as isize;
+                    let near = [-3, -2, -1, 1, 2, 3];
+                    assert_eq!(steps.near(at), [near.map(|d| step(d, 0)), near.map(|d| step(0, d))]);
                 }
             }
         }

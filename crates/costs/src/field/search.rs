@@ -29,17 +29,22 @@ pub(super) fn search(
     with_sources: bool,
     interrupt: &Interrupt,
 ) -> Result<Labels, Interrupted> {
-    let is_center = matches!(graph.rules(), Rules::Center(_));
     let mut labels = Labels {
         costs: unreached(graph, interrupt)?,
         sources: with_sources.then(|| vec![u32::MAX; graph.states()]),
         queue_bytes: 0,
     };
-    match (graph.k().get(), is_center) {
-        (2, true) => labels.run::<2>(graph, sources, limit, interrupt),
-        (3, true) => labels.run::<3>(graph, sources, limit, interrupt),
-        (4, true) => labels.run::<4>(graph, sources, limit, interrupt),
-        _ => labels.run::<0>(graph, sources, limit, interrupt),
+    match (graph.k().get(), graph.is_center()) {
+        (2, true) => labels.run::<2, true>(graph, sources, limit, interrupt),
+        (3, true) => labels.run::<3, true>(graph, sources, limit, interrupt),
+        (4, true) => labels.run::<4, true>(graph, sources, limit, interrupt),
+        (5, true) => labels.run::<5, true>(graph, sources, limit, interrupt),
+        (_, true) => labels.run::<6, true>(graph, sources, limit, interrupt),
+        (2, false) => labels.run::<2, false>(graph, sources, limit, interrupt),
+        (3, false) => labels.run::<3, false>(graph, sources, limit, interrupt),
+        (4, false) => labels.run::<4, false>(graph, sources, limit, interrupt),
+        (5, false) => labels.run::<5, false>(graph, sources, limit, interrupt),
+        (_, false) => labels.run::<6, false>(graph, sources, limit, interrupt),
     }?;
     Ok(labels)
 }
@@ -61,7 +66,7 @@ fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Inter
 }
 
 impl Labels {
-    fn run<const K: u32>(
+    fn run<const K: u32, const CENTER: bool>(
         &mut self,
         graph: &CostGraph,
         sources: &[(usize, u32)],
@@ -73,12 +78,12 @@ impl Labels {
         match self.sources.take() {
             None => {
                 let mut state = Costs { costs: &mut self.costs, queue: &mut queue };
-                run::<K, _>(graph, sources, &mut state, limit, interrupt)?;
+                run::<K, CENTER, _>(graph, sources, &mut state, limit, interrupt)?;
             }
             Some(mut numbers) => {
                 let costs = Costs { costs: &mut self.costs, queue: &mut queue };
                 let mut state = Numbered { costs, numbers: &mut numbers, from: 0 };
-                run::<K, _>(graph, sources, &mut state, limit, interrupt)?;
+                run::<K, CENTER, _>(graph, sources, &mut state, limit, interrupt)?;
                 self.sources = Some(numbers);
             }
         }
@@ -106,7 +111,7 @@ trait Label: Visit {
     fn starts(&mut self, state: usize, number: u32);
 }
 
-fn run<const K: u32, L: Label>(
+fn run<const K: u32, const CENTER: bool, L: Label>(
     graph: &CostGraph,
     sources: &[(usize, u32)],
     label: &mut L,
@@ -131,7 +136,7 @@ fn run<const K: u32, L: Label>(
                 // It was queued by a longer path, and is done.
                 if label.queue().of(cost) == current {
                     label.scans(state);
-                    scanner.scan::<K>(weights, (state, cost), label);
+                    scanner.scan::<K, CENTER>(weights, (state, cost), label);
                 }
             }
         }
