@@ -14,13 +14,14 @@ use serde_json::Value;
 use crate::Error;
 
 /// The published libraries, each after those that it depends on.
-pub const LIBRARIES: [&str; 7] = [
+pub const LIBRARIES: [&str; 8] = [
     "mediant-moves",
     "mediant-grid",
     "mediant-formats",
     "mediant-search",
     "mediant-subgoal",
     "mediant-hierarchy",
+    "mediant-costs",
     "mediant",
 ];
 

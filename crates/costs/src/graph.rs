@@ -134,8 +134,9 @@ impl CostGraph {
     }
 
     /// The cost of a move over cells whose weights have this sum, each times its share of the move's length:
-    /// `None` for a vector that is no move of N(k). A weight is the cell's cost in the map's own integers; the
-    /// shares are in parts of 2 |dx| |dy| between centers and |dx| |dy| between corners, where 0 counts as 1.
+    /// `None` for a vector that is no move of N(k). A weight is the cell's cost in the map's own integers;
+    /// the shares are in parts of 2 |dx| |dy| between centers and |dx| |dy| between corners, where 0 counts
+    /// as 1.
     #[doc(hidden)]
     #[must_use]
     pub fn cost_of_sum(&self, v: Vector, sum: u64) -> Option<Cost> {
@@ -168,10 +169,10 @@ impl CostGraph {
         self.scanner.moves.memory_bytes() + self.scanner.gaps.len() * size_of::<u32>()
     }
 
-    /// The cells that a path crosses, in their order on the way, each with the length in it, in the unit of the
-    /// cell size: the sum of length · cost is the cost of the path. Of a move along a grid line it is the cell
-    /// whose cost counts. Cells that are touched in a corner alone are left out. Empty for a path with a move
-    /// that is not legal.
+    /// The cells that a path crosses, in their order on the way, each with the length in it, in the unit of
+    /// the cell size: the sum of length · cost is the cost of the path. Of a move along a grid line it is the
+    /// cell whose cost counts. Cells that are touched in a corner alone are left out. Empty for a path with a
+    /// move that is not legal.
     #[must_use]
     pub fn crossings(&self, path: &Path) -> Vec<((u32, u32), f64)> {
         let mut crossings: Vec<((u32, u32), f64)> = Vec::new();

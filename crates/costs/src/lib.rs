@@ -6,8 +6,8 @@
 //! for 16. Here it is defined for every k, at centers and at corners.
 //!
 //! - [`CostMap`] is the surface, [`CostGraph`] its search graph under rules of motion and N(k).
-//! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit, allocation,
-//!   directions, paths and corridors.
+//! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
+//!   allocation, directions, paths and corridors.
 //! - [`CostAStar`] finds one path after another.
 //!
 //! **The key decision: costs are integers here, too.** The sum of shares times weights is exact, its product
@@ -15,7 +15,7 @@
 //! not depend on the order of work, nor on the platform; and where all cells cost 1 they are those of
 //! `mediant-search`, to the last bit. The unit follows the map (module `scale`).
 //!
-//! What can be promised is the least cost over N(k) on the raster. No bound against all paths is known.
+//! The promise is the least cost over N(k) on the raster. No bound against all paths is known.
 //!
 //! Not here: the engines for maps on which all cells cost the same, which are many times as fast there, and
 //! of which nothing is compiled here but the words of queries and answers.

@@ -59,7 +59,7 @@ impl Scale {
         // Vertices beyond those of the map: a search labels what lies one move ahead.
         let longest =
             (vertices as f64 + 64.0) * (x * x + y * y).sqrt() * f64::from(greatest) * exp2(weight_exponent);
-        // What is left of 63 digits.
+        // Of 63 digits, those that the longest path leaves.
         let digits = (62 - floor_log2(longest) + floor_log2(straight)).min(DIGITS.0);
         if digits < DIGITS.1 {
             return Err(range);

@@ -1,8 +1,8 @@
 //! The legal moves from a vertex, with their costs: the inner loop of all searches.
 //!
-//! The moves of N(5) are written out, quadrant by quadrant, since most searches are over these, and share what
-//! they read: at k = 5 a field takes half as long as with a table. All others are read from a table. A cell of
-//! weight 0 is blocked, so what a move costs tells whether it is legal, too.
+//! The moves of N(5) are written out, quadrant by quadrant, since most searches are over these, and share
+//! what they read: at k = 5 a field takes half as long as with a table. All others are read from a table. A
+//! cell of weight 0 is blocked, so what a move costs tells whether it is legal, too.
 
 use mediant_grid::{CornerRule, Rules};
 use mediant_moves::Vector;
@@ -15,10 +15,10 @@ use crate::{
     scale::Scale,
 };
 
-/// What a search does with the moves of a vertex.
+/// A search's use of the moves of a vertex.
 pub(crate) trait Visit {
-    /// The cost of the best path known to a state, which a new one has to beat: the greatest for none, 0 for a
-    /// blocked cell.
+    /// The cost of the best path known to a state, which a new one has to beat: the greatest for none, 0 for
+    /// a blocked cell.
     fn known(&self, to: usize) -> u64;
 
     /// Takes note of a better path to a state, by the move with this index.
@@ -204,8 +204,8 @@ impl Scanner {
         self.allowed >> ((one > 0) as u8 | ((other > 0) as u8) << 1) & 1 == 1
     }
 
-    /// Visits the legal moves from a state whose cost is known: those of N(`K`) for K = 2 to 5, those of any k
-    /// above for K = 6, at centers or at corners.
+    /// Visits the legal moves from a state whose cost is known: those of N(`K`) for K = 2 to 5, those of any
+    /// k above for K = 6, at centers or at corners.
     #[inline]
     pub(crate) fn scan<const K: u32, const CENTER: bool>(
         &self,
@@ -268,7 +268,8 @@ impl Scanner {
         }
     }
 
-    /// The sum of share · weight of a move from a position; `None` if the move is not legal there, gaps aside.
+    /// The sum of share · weight of a move from a position; `None` if the move is not legal there, gaps
+    /// aside.
     #[inline]
     pub(crate) fn sum(&self, weights: &[u32], at: usize, of: &Move) -> Option<u64> {
         let from = self.steps.from(at);
@@ -399,8 +400,8 @@ impl<V: Visit> Scan<'_, V> {
         }
     }
 
-    /// The moves between corners in this quadrant, with one of the two along its axes. `gap` is the quadrant of
-    /// a state at a closed gap.
+    /// The moves between corners in this quadrant, with one of the two along its axes. `gap` is the quadrant
+    /// of a state at a closed gap.
     #[inline]
     fn between_corners<const K: u32, const Q: usize>(&mut self, gap: Option<bool>) {
         let ([x1, x2, x3], [y1, y2, y3]) = (self.x[Q % 2], self.y[Q / 2]);

@@ -22,7 +22,7 @@ const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'s
 }
 
 /// The layers, lowest first, in four groups.
-const LAYERS: [Layer; 16] = [
+const LAYERS: [Layer; 17] = [
     // The mathematics and the map.
     Layer {
         foreign: false,
@@ -33,11 +33,12 @@ const LAYERS: [Layer; 16] = [
     layer(SEARCH, &[MOVES, GRID], LOW),
     layer(SUBGOAL, &[MOVES, GRID, SEARCH], LOW),
     layer(HIERARCHY, &[MOVES, GRID, SEARCH], LOW),
+    layer(COSTS, &[MOVES, GRID, SEARCH], LOW),
     // The crates that people depend on.
     layer(FORMATS, &[GRID], "reading a file needs no search"),
     layer(
         LIBRARY,
-        &[MOVES, GRID, SEARCH, SUBGOAL, HIERARCHY, FORMATS],
+        &[MOVES, GRID, SEARCH, SUBGOAL, HIERARCHY, COSTS, FORMATS],
         "the library serves programs and bindings of all kinds, and knows none of them",
     ),
     layer(
@@ -77,6 +78,7 @@ const GRID: &str = "mediant-grid";
 const SEARCH: &str = "mediant-search";
 const SUBGOAL: &str = "mediant-subgoal";
 const HIERARCHY: &str = "mediant-hierarchy";
+const COSTS: &str = "mediant-costs";
 const LIBRARY: &str = "mediant";
 const FORMATS: &str = "mediant-formats";
 const ORACLE: &str = "mediant-oracle";
@@ -104,7 +106,7 @@ pub fn check_packages(packages: &[Package]) -> Vec<Finding> {
             let ours = packages.iter().any(|package| package.name == *name);
             let fits = match kind {
                 Some(Kind::Dev) => {
-                    let engine = [SEARCH, SUBGOAL, HIERARCHY, LIBRARY].contains(&&**name);
+                    let engine = [SEARCH, SUBGOAL, HIERARCHY, COSTS, LIBRARY].contains(&&**name);
                     package.name != ORACLE || !engine
                 }
                 _ if ours => layer.uses.contains(&&**name),
@@ -154,7 +156,7 @@ pub const COMPILED: [Compiled; 4] = [
         package: "xtask",
         options: &[],
         // The library compiles all three, and its name begins those of all our crates.
-        never: &[SEARCH, SUBGOAL, HIERARCHY],
+        never: &[SEARCH, SUBGOAL, HIERARCHY, COSTS],
         reason: "`cargo xtask tidy` answers within seconds, and an engine takes minutes",
     },
 ];

@@ -1,7 +1,7 @@
 //! The queue of a field: states in buckets by their cost.
 
-/// A ring of buckets, each 2^`shift` units of cost wide (Dial 1969). No state is queued further ahead than the
-/// ring is long.
+/// A ring of buckets, each 2^`shift` units of cost wide (Dial 1969). No state is queued further ahead than
+/// the ring is long.
 #[derive(Debug)]
 pub(super) struct Buckets {
     ring: Vec<Vec<u32>>,
@@ -44,7 +44,7 @@ impl Buckets {
     }
 
     /// Queues a state whose cost became `cost` from `before`, if it does not wait in the same bucket already.
-    /// What is in the current bucket may be done already, and is queued anew.
+    /// A state of the current bucket may be done already, and is queued anew.
     #[inline]
     pub(super) fn push(&mut self, state: usize, cost: u64, before: u64) {
         let bucket = self.of(cost);

@@ -245,7 +245,7 @@ impl CostField {
             rows.clear();
             rows.extend_from_slice(&costs[range.clone()]);
             for y in band * SIDE..height.min((band + 1) * SIDE) {
-                // What is written lies before this row of tiles: rows have no frame.
+                // Rows have no frame, so they are written before this row of tiles.
                 let first = y as usize * width as usize;
                 for (x, to) in (0..width as i32).zip(&mut costs[first..first + width as usize]) {
                     let at = layout.position(x, y as i32);

@@ -98,7 +98,7 @@ impl Labels {
     }
 }
 
-/// What a search writes.
+/// The labels that a search writes.
 trait Label: Visit {
     fn queue(&mut self) -> &mut Buckets;
 
