@@ -55,24 +55,35 @@ impl Buckets {
         }
     }
 
-    /// Takes the states of the current bucket into an empty list; those that it holds by then. Goes on to the
-    /// next buckets while it is empty. Returns whether anything was queued.
+    /// Takes the states of the next bucket that holds any into an empty list. Returns whether one does.
     pub(super) fn take(&mut self, states: &mut Vec<u32>) -> bool {
-        if self.queued == 0 {
-            return false;
+        match self.first() {
+            Some(bucket) => {
+                self.take_from(bucket, states);
+                true
+            }
+            None => false,
         }
-        while self.ring[self.slot(self.current)].is_empty() {
-            self.current += 1;
-        }
-        let slot = self.slot(self.current);
-        std::mem::swap(&mut self.ring[slot], states);
-        self.queued -= states.len();
-        true
     }
 
-    /// The least cost in the current bucket.
-    pub(super) const fn start(&self) -> u64 {
-        self.current << self.shift
+    /// The next bucket that holds states.
+    pub(super) fn first(&self) -> Option<u64> {
+        (self.queued > 0)
+            .then(|| (self.current..).find(|&bucket| !self.ring[self.slot(bucket)].is_empty()))?
+    }
+
+    /// Goes on to a bucket, before which none is queued, and takes its states into an empty list; those that it
+    /// holds by then.
+    pub(super) fn take_from(&mut self, bucket: u64, states: &mut Vec<u32>) {
+        self.current = bucket;
+        let slot = self.slot(bucket);
+        std::mem::swap(&mut self.ring[slot], states);
+        self.queued -= states.len();
+    }
+
+    /// The least cost in a bucket.
+    pub(super) const fn start_of(&self, bucket: u64) -> u64 {
+        bucket << self.shift
     }
 
     /// The memory used, in bytes.

@@ -3,8 +3,9 @@
 mod buckets;
 mod directions;
 mod search;
+mod threads;
 
-use std::sync::Arc;
+use std::{num::NonZeroUsize, sync::Arc};
 
 use mediant_grid::{Identity, Interrupt, Vertex};
 use mediant_moves::{Cost, Vector};
@@ -101,6 +102,20 @@ impl CostField {
         query: CostFieldQuery<'_>,
         interrupt: &Interrupt,
     ) -> Result<Self, CostFieldError> {
+        Self::on_threads(graph, query, NonZeroUsize::MIN, interrupt)
+    }
+
+    /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A query
+    /// for the allocation is answered on one. It pays from some 10⁶ vertices on.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn on_threads(
+        graph: Arc<CostGraph>,
+        query: CostFieldQuery<'_>,
+        threads: NonZeroUsize,
+        interrupt: &Interrupt,
+    ) -> Result<Self, CostFieldError> {
         if query.limit.is_nan() || query.limit < 0.0 {
             return Err(CostFieldError::Limit { limit: query.limit });
         }
@@ -113,7 +128,7 @@ impl CostField {
             .collect();
         let limit = graph.greatest_cost(query.limit);
         let Labels { mut costs, sources: allocation, queue_bytes } =
-            search(&graph, &starts, limit, query.allocation, interrupt)?;
+            search(&graph, &starts, (limit, query.allocation), threads, interrupt)?;
         costs.shrink_to_fit();
         Ok(Self { graph, costs, allocation, sources: query.sources.into(), queue_bytes })
     }

@@ -1,8 +1,10 @@
 //! The search behind a field.
 
+use std::num::NonZeroUsize;
+
 use mediant_grid::{Interrupt, Interrupted, Rules};
 
-use super::buckets::Buckets;
+use super::{buckets::Buckets, threads};
 use crate::{graph::CostGraph, scan::Visit};
 
 /// A state that no path reaches.
@@ -19,14 +21,14 @@ pub(super) struct Labels {
 
 /// The states between two questions of an interrupt.
 const PIECE: usize = 1 << 14;
-const STAGE: &str = "searching the field";
+pub(super) const STAGE: &str = "searching the field";
 
 /// Dijkstra's algorithm from sources, each a state with its number, up to a cost.
 pub(super) fn search(
     graph: &CostGraph,
     sources: &[(usize, u32)],
-    limit: u64,
-    with_sources: bool,
+    (limit, with_sources): (u64, bool),
+    threads: NonZeroUsize,
     interrupt: &Interrupt,
 ) -> Result<Labels, Interrupted> {
     let mut labels = Labels {
@@ -35,16 +37,16 @@ pub(super) fn search(
         queue_bytes: 0,
     };
     match (graph.k().get(), graph.is_center()) {
-        (2, true) => labels.run::<2, true>(graph, sources, limit, interrupt),
-        (3, true) => labels.run::<3, true>(graph, sources, limit, interrupt),
-        (4, true) => labels.run::<4, true>(graph, sources, limit, interrupt),
-        (5, true) => labels.run::<5, true>(graph, sources, limit, interrupt),
-        (_, true) => labels.run::<6, true>(graph, sources, limit, interrupt),
-        (2, false) => labels.run::<2, false>(graph, sources, limit, interrupt),
-        (3, false) => labels.run::<3, false>(graph, sources, limit, interrupt),
-        (4, false) => labels.run::<4, false>(graph, sources, limit, interrupt),
-        (5, false) => labels.run::<5, false>(graph, sources, limit, interrupt),
-        (_, false) => labels.run::<6, false>(graph, sources, limit, interrupt),
+        (2, true) => labels.run::<2, true>(graph, sources, limit, threads, interrupt),
+        (3, true) => labels.run::<3, true>(graph, sources, limit, threads, interrupt),
+        (4, true) => labels.run::<4, true>(graph, sources, limit, threads, interrupt),
+        (5, true) => labels.run::<5, true>(graph, sources, limit, threads, interrupt),
+        (_, true) => labels.run::<6, true>(graph, sources, limit, threads, interrupt),
+        (2, false) => labels.run::<2, false>(graph, sources, limit, threads, interrupt),
+        (3, false) => labels.run::<3, false>(graph, sources, limit, threads, interrupt),
+        (4, false) => labels.run::<4, false>(graph, sources, limit, threads, interrupt),
+        (5, false) => labels.run::<5, false>(graph, sources, limit, threads, interrupt),
+        (_, false) => labels.run::<6, false>(graph, sources, limit, threads, interrupt),
     }?;
     Ok(labels)
 }
@@ -71,23 +73,14 @@ impl Labels {
         graph: &CostGraph,
         sources: &[(usize, u32)],
         limit: u64,
+        threads: NonZeroUsize,
         interrupt: &Interrupt,
     ) -> Result<(), Interrupted> {
-        let (least, greatest) = graph.scanner().bounds(graph.map().scale());
-        let mut queue = Buckets::new(least, greatest);
-        match self.sources.take() {
-            None => {
-                let mut state = Costs { costs: &mut self.costs, queue: &mut queue };
-                run::<K, CENTER, _>(graph, sources, &mut state, limit, interrupt)?;
-            }
-            Some(mut numbers) => {
-                let costs = Costs { costs: &mut self.costs, queue: &mut queue };
-                let mut state = Numbered { costs, numbers: &mut numbers, from: 0 };
-                run::<K, CENTER, _>(graph, sources, &mut state, limit, interrupt)?;
-                self.sources = Some(numbers);
-            }
-        }
-        self.queue_bytes = queue.memory_bytes();
+        self.queue_bytes = if threads.get() > 1 && self.sources.is_none() {
+            threads::run::<K, CENTER>(graph, &mut self.costs, sources, limit, threads, interrupt)?
+        } else {
+            self.run_alone::<K, CENTER>(graph, sources, limit, interrupt)?
+        };
         if limit != NONE {
             for piece in self.costs.chunks_mut(1 << 18) {
                 interrupt.check("filling memory")?;
@@ -95,6 +88,26 @@ impl Labels {
             }
         }
         Ok(())
+    }
+
+    /// Returns the memory of the queue, in bytes.
+    fn run_alone<const K: u32, const CENTER: bool>(
+        &mut self,
+        graph: &CostGraph,
+        sources: &[(usize, u32)],
+        limit: u64,
+        interrupt: &Interrupt,
+    ) -> Result<usize, Interrupted> {
+        let (least, greatest) = graph.scanner().bounds(graph.map().scale());
+        let mut queue = Buckets::new(least, greatest);
+        let costs = Costs { costs: &mut self.costs, queue: &mut queue };
+        match &mut self.sources {
+            None => run::<K, CENTER, _>(graph, sources, costs, limit, interrupt)?,
+            Some(numbers) => {
+                run::<K, CENTER, _>(graph, sources, Numbered { costs, numbers, from: 0 }, limit, interrupt)?;
+            }
+        }
+        Ok(queue.memory_bytes())
     }
 }
 
@@ -114,7 +127,7 @@ trait Label: Visit {
 fn run<const K: u32, const CENTER: bool, L: Label>(
     graph: &CostGraph,
     sources: &[(usize, u32)],
-    label: &mut L,
+    mut label: L,
     limit: u64,
     interrupt: &Interrupt,
 ) -> Result<(), Interrupted> {
@@ -124,7 +137,8 @@ fn run<const K: u32, const CENTER: bool, L: Label>(
     }
     let mut states = Vec::new();
     while label.queue().take(&mut states) {
-        if label.queue().start() > limit {
+        let queue = label.queue();
+        if queue.start_of(queue.current()) > limit {
             break;
         }
         for piece in states.chunks(PIECE) {
@@ -136,7 +150,7 @@ fn run<const K: u32, const CENTER: bool, L: Label>(
                 // It was queued by a longer path, and is done.
                 if label.queue().of(cost) == current {
                     label.scans(state);
-                    scanner.scan::<K, CENTER>(weights, (state, cost), label);
+                    scanner.scan::<K, CENTER>(weights, (state, cost), &mut label);
                 }
             }
         }
