@@ -1,5 +1,5 @@
 //! Reads and writes maps as people have them: MovingAI maps, pictures, ROS maps; and scenarios. Features add
-//! PNG, saved indexes, search traces, and pictures of maps with paths.
+//! PNG, saved indexes, search traces, pictures of maps with paths, and rasters of numbers.
 //!
 //! [`read_map`] takes a file of any kind, told by its content, and gives a [`Grid`](mediant_grid::Grid):
 //!
@@ -18,6 +18,9 @@
 //! # Ok::<(), mediant_formats::ReadError>(())
 //! ```
 //!
+//! A `Surface` has a number a cell, as costs and heights are: from NPY, an ESRI ASCII grid, PGM, PNG or
+//! GeoTIFF by `read_surface`, and written to each of them, with its place in the world where the format has one.
+//!
 //! A [`Scenario`] has queries on one map, a [`DynamicScenario`] those on a map that changes between them: one
 //! of the Grid-Based Path Planning Competition, made of patches.
 //!
@@ -32,13 +35,16 @@
 //! side of it on every platform. (ROS 2 compares in single precision, which is the same everywhere, too.)
 //!
 //! Input is not trusted: memory grows with the bytes that a file has, never with the sizes that it states. A
-//! picture, which may be compressed, has at most [`Raster::MAX_PIXELS`] pixels. Each error says where it is
+//! picture, which may be compressed, has at most [`Raster::MAX_PIXELS`] pixels, and a `Surface` at most the
+//! bytes that its reader allows. Each error says where it is
 //! (of a text the line, and the column in bytes, both from 1), what was expected, what was found, and how to
 //! mend it.
 //!
 //! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012);
 //! of PGM and PBM, those of the manual pages of Netpbm; of PNG, that of its specification (W3C, third
-//! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads today, or that of ROS 1.
+//! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads today, or that of ROS 1; of
+//! NPY, that of NumPy's NEP 1; of GeoTIFF, TIFF 6.0 and BigTIFF, by the crate `tiff`, with the tags of GeoTIFF
+//! 1.1.
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|
@@ -47,6 +53,8 @@
 //! | `index` | `IndexFile`: what an engine preprocessed, saved for later runs; `save` | `sha2` |
 //! | `png` | PNG wherever there are pictures | `png` |
 //! | `picture` | `Picture`: a map with paths, a field, a search, as PNG and SVG; `save` | `png` |
+//! | `surface` | `Surface`: a number a cell, of NPY, ESRI ASCII grids, PGM, and PNG if it is on | – |
+//! | `geotiff` | GeoTIFF for them; `surface` | `tiff` |
 //! | `trace` | `TraceWriter`: a search, for the Posthoc visualizer | `serde`, `serde_json` |
 //!
 //! No feature is on by default, and none changes what is there without it.
@@ -71,6 +79,8 @@ mod ros;
 mod save;
 mod scenario;
 mod source;
+#[cfg(feature = "surface")]
+mod surface;
 mod text;
 #[cfg(feature = "trace")]
 mod trace;
@@ -92,6 +102,13 @@ pub use ros::{RosError, RosMap, RosMode, RosSettings};
 pub use save::{NewFile, WriteError};
 pub use scenario::{Instance, MapMismatch, Scenario, ScenarioError, scenario_tolerance};
 pub use source::{MapFormat, MapSource, map_size_with, read_map, read_map_interruptible, read_map_with};
+#[cfg(feature = "geotiff")]
+pub use surface::{GeoTiffOptions, TiffCompression};
+#[cfg(feature = "surface")]
+pub use surface::{
+    Georeference, Samples, Surface, SurfaceError, SurfaceFormat, SurfaceOptions, read_surface,
+    read_surface_interruptible, surface_size,
+};
 #[cfg(feature = "trace")]
 pub use trace::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 pub use world::{WorldError, WorldFrame};

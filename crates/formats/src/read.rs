@@ -8,6 +8,8 @@ use std::{
 
 use mediant_grid::{Grid, GridError, Interrupt, Interrupted};
 
+#[cfg(feature = "surface")]
+use crate::SurfaceError;
 #[cfg(feature = "index")]
 use crate::index::error::IndexError;
 use crate::{
@@ -143,6 +145,15 @@ pub enum ReadError {
         // An error that can name two maps is large, and all that read files return this one.
         source: Box<IndexError>,
     },
+    /// The file is no raster of numbers. Needs the feature `surface`.
+    #[cfg(feature = "surface")]
+    #[error("{}: {source}", path.display())]
+    Surface {
+        /// The file.
+        path: PathBuf,
+        /// The fault in the file.
+        source: Box<SurfaceError>,
+    },
     /// An interrupt stopped the reading.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
@@ -165,6 +176,17 @@ impl ReadError {
         }
     }
 
+    /// This error of the raster of numbers in a file.
+    #[cfg(feature = "surface")]
+    pub(crate) fn of_surface(path: &Path, error: SurfaceError) -> Self {
+        let path = path.to_owned();
+        match error {
+            SurfaceError::Interrupted(interrupted) => interrupted.into(),
+            SurfaceError::Io(source) => Self::Unreadable { path, source },
+            source => Self::Surface { path, source: Box::new(source) },
+        }
+    }
+
     /// This error of the picture that a YAML file names.
     pub(crate) fn of_image(self, yaml: &Path) -> Self {
         match self {
@@ -174,32 +196,21 @@ impl ReadError {
     }
 }
 
-/// The bytes of a regular file. A device or pipe is refused before it is opened, since opening a pipe may
-/// never return.
+/// The bytes of a regular file.
 pub(crate) fn read_regular(path: &Path) -> Result<Vec<u8>, ReadError> {
     read_regular_interruptible(path, &Interrupt::NEVER)
 }
 
 /// [`read_regular`], which an interrupt can stop; it asks for each mebibyte.
 pub(crate) fn read_regular_interruptible(path: &Path, interrupt: &Interrupt) -> Result<Vec<u8>, ReadError> {
-    let unreadable = |source: io::Error| match source.kind() {
-        io::ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },
-        _ => ReadError::Unreadable { path: path.to_owned(), source },
-    };
-    let metadata = fs::metadata(path).map_err(unreadable)?;
-    if metadata.is_dir() {
-        return Err(ReadError::Directory { path: path.to_owned() });
-    }
-    if !metadata.is_file() {
-        return Err(ReadError::NotRegular { path: path.to_owned() });
-    }
-    if metadata.len() > MAX_FILE_BYTES {
+    let unreadable = |source: io::Error| ReadError::Unreadable { path: path.to_owned(), source };
+    let (file, length) = open_regular(path)?;
+    if length > MAX_FILE_BYTES {
         return Err(ReadError::TooLarge { path: path.to_owned() });
     }
-    let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     // MAX_FILE_BYTES + 1 fits in 32 bits. The extra byte is for the read that finds the end of the file.
-    bytes.try_reserve_exact(metadata.len() as usize + 1).map_err(|error| unreadable(error.into()))?;
+    bytes.try_reserve_exact(length as usize + 1).map_err(|error| unreadable(error.into()))?;
     // The file may have grown since: one byte too many tells.
     let mut file = file.take(MAX_FILE_BYTES + 1);
     loop {
@@ -212,6 +223,23 @@ pub(crate) fn read_regular_interruptible(path: &Path, interrupt: &Interrupt) -> 
         return Err(ReadError::TooLarge { path: path.to_owned() });
     }
     Ok(bytes)
+}
+
+/// A regular file, and its length. A device or pipe is refused before it is opened, since opening a pipe may
+/// never return.
+pub(crate) fn open_regular(path: &Path) -> Result<(File, u64), ReadError> {
+    let unreadable = |source: io::Error| match source.kind() {
+        io::ErrorKind::NotFound => ReadError::Missing { path: path.to_owned() },
+        _ => ReadError::Unreadable { path: path.to_owned(), source },
+    };
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err(ReadError::Directory { path: path.to_owned() });
+    }
+    if !metadata.is_file() {
+        return Err(ReadError::NotRegular { path: path.to_owned() });
+    }
+    Ok((File::open(path).map_err(unreadable)?, metadata.len()))
 }
 
 /// The grid of a map that was read, whose sides were checked then.

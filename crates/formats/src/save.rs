@@ -2,7 +2,7 @@
 
 use std::{
     fs::{self, File, OpenOptions},
-    io::{self, BufWriter, Write},
+    io::{self, BufWriter, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
 
@@ -59,6 +59,16 @@ pub enum WriteError {
     #[error("{}: no name for the picture of a ROS map; end it in .pgm", path.display())]
     ImageName {
         /// The picture.
+        path: PathBuf,
+    },
+    /// The name is none for a raster of numbers. Needs the feature `surface`.
+    #[cfg(feature = "surface")]
+    #[error("{}: no name for a raster; end it in .npy, .asc, .pgm{}{}", path.display(),
+        if cfg!(feature = "png") { ", .png" } else { "" },
+        if cfg!(feature = "geotiff") { ", .tif" } else { "" }
+    )]
+    SurfaceName {
+        /// The file that was asked for.
         path: PathBuf,
     },
     /// The operating system refuses to write the file.
@@ -196,6 +206,13 @@ impl Write for NewFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
+    }
+}
+
+/// Goes to another place of the file; a pipe has none.
+impl Seek for NewFile {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        self.file.seek(place)
     }
 }
 

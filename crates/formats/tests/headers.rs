@@ -6,7 +6,7 @@ use std::{
     sync::atomic::{AtomicUsize, Ordering},
 };
 
-use mediant_formats::{Raster, RasterFormat};
+use mediant_formats::{Raster, RasterFormat, Surface, SurfaceOptions};
 
 mod png_chunks;
 
@@ -38,12 +38,21 @@ static COUNTING: Counting = Counting;
 /// Memory of a reader besides the pixels: the decoder of PNG has tables, and buffers for a few rows.
 const SLACK: usize = 1 << 20;
 
-/// The most bytes that reading allocates at a time, and whether there was a picture.
+/// The most bytes that reading a picture allocates at a time, and whether there was one.
 fn peak(bytes: &[u8]) -> (usize, bool) {
+    peak_of(|| Raster::parse(bytes).is_ok())
+}
+
+/// The same of a raster of numbers.
+fn peak_of_surface(bytes: &[u8]) -> (usize, bool) {
+    peak_of(|| Surface::parse(bytes, &SurfaceOptions::default()).is_ok())
+}
+
+fn peak_of(read: impl FnOnce() -> bool) -> (usize, bool) {
     let before = BYTES.load(Ordering::Relaxed);
     PEAK.store(before, Ordering::Relaxed);
-    let read = Raster::parse(bytes);
-    (PEAK.load(Ordering::Relaxed) - before, read.is_ok())
+    let read = read();
+    (PEAK.load(Ordering::Relaxed) - before, read)
 }
 
 /// A PNG with other sides in its header, of another color type, interlaced or not.
@@ -91,6 +100,8 @@ fn memory_follows_the_file() {
         }
     }
 
+    surfaces();
+
     // A picture that is large and compresses well takes what its pixels take.
     let mut white = Vec::new();
     let large = Raster::from_fn(2000, 2000, 255, |_, _| 255).expect("a picture");
@@ -103,4 +114,50 @@ fn memory_follows_the_file() {
     // Half of the file gives half of the pixels, and no more memory than these.
     let (half, read) = peak(&white[..white.len() / 2]);
     assert!(!read && half < 3 * 2_000_000 + SLACK, "{half} bytes");
+}
+
+/// Rasters of numbers whose headers state more than their files have.
+fn surfaces() {
+    let npy = |shape: &str, kind: &str| {
+        let header = format!("{{'descr': '{kind}', 'fortran_order': True, 'shape': {shape}, }}");
+        let length = (header.len() as u16).to_le_bytes();
+        [b"\x93NUMPY\x01\0", &length[..], header.as_bytes(), b"abcd"].concat()
+    };
+    let headers = [
+        npy("(1048576, 1000)", "|u1"),
+        npy("(1048576, 1000)", "<f8"),
+        npy("(99999999999999999999999, 1)", "<f8"),
+        b"\x93NUMPY\x02\0\xff\xff\xff\xff{".to_vec(),
+        b"ncols 1048576 nrows 1000 1 2 3".to_vec(),
+        b"ncols 1048576 nrows 1000 1.5 2 3".to_vec(),
+        b"P5 1048576 1000 65535 abcd".to_vec(),
+        b"P2 1048576 1000 65535 1 2 3".to_vec(),
+    ];
+    for bytes in headers {
+        let (peak, read) = peak_of_surface(&bytes);
+        assert!(!read && peak < 1 << 15, "{}: {peak} bytes", bytes.escape_ascii());
+    }
+
+    // Of a damaged GeoTIFF, a chunk is unpacked into at most 4096 times its bytes.
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/surfaces");
+    let mut files = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder is there") {
+        let path = entry.expect("the folder can be read").path();
+        if path.extension().is_none_or(|end| end != "tif") {
+            continue;
+        }
+        files += 1;
+        let bytes = std::fs::read(&path).expect("the file can be read");
+        // The header, the directory and its values are at the begin.
+        for at in (0..bytes.len().min(700)).step_by(3) {
+            for flip in [0xff, 0x80, 0x10] {
+                let mut bytes = bytes.clone();
+                bytes[at] ^= flip;
+                let (peak, _) = peak_of_surface(&bytes);
+                let most = SLACK + 3 * 4096 * bytes.len();
+                assert!(peak < most, "{}: byte {at}, {flip:#x}: {peak} bytes", path.display());
+            }
+        }
+    }
+    assert!(files > 40, "{files}");
 }

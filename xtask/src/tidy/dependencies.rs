@@ -149,8 +149,8 @@ pub const COMPILED: [Compiled; 4] = [
     Compiled {
         package: FORMATS,
         options: &["--no-default-features"],
-        never: &["png", "serde", "sha2"],
-        reason: "a reader of `.map` files needs neither JSON nor hashes",
+        never: &["png", "serde", "sha2", "tiff"],
+        reason: "a reader of `.map` files needs no JSON, no hashes and no pictures",
     },
     Compiled {
         package: "xtask",

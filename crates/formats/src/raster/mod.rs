@@ -2,12 +2,14 @@
 
 mod cursor;
 pub(crate) mod error;
+#[cfg(feature = "surface")]
+mod gray;
 mod netpbm;
 mod options;
 mod plain;
 #[cfg(feature = "png")]
 mod png;
-mod samples;
+pub(crate) mod samples;
 mod write;
 
 use std::path::Path;
@@ -15,7 +17,11 @@ use std::path::Path;
 use mediant_grid::{Grid, Interrupt, Interrupted, uninterrupted};
 
 pub use error::RasterError;
+#[cfg(feature = "surface")]
+pub(crate) use gray::Gray;
 pub use options::{MapOptions, RosVersion, Unknown};
+#[cfg(all(feature = "surface", feature = "png"))]
+pub(crate) use png::write_gray as write_gray_png;
 pub use write::RasterFormat;
 
 use crate::{
@@ -58,10 +64,16 @@ struct Opacities {
     samples: Samples,
 }
 
+/// Whether bytes begin as a file of the Netpbm family does.
+#[cfg(feature = "surface")]
+pub(crate) fn is_netpbm(bytes: &[u8]) -> bool {
+    netpbm::kind(bytes).is_some()
+}
+
 /// The stage that an interruption names.
 const READING: &str = "reading the picture";
 
-const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
+pub(crate) const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 
 impl Raster {
     /// The most pixels: 2²⁸, as 16,384 × 16,384 have. Pictures are compressed, up to a thousand to one, so it
@@ -94,12 +106,12 @@ impl Raster {
     pub(crate) fn parse_interruptible(bytes: &[u8], interrupt: &Interrupt) -> Result<Self, RasterError> {
         if bytes.starts_with(PNG_SIGNATURE) {
             #[cfg(feature = "png")]
-            return png::read(bytes, interrupt);
+            return png::read(bytes, check_sides, interrupt);
             #[cfg(not(feature = "png"))]
             return Err(RasterError::PngIsOff);
         }
         match netpbm::kind(bytes) {
-            Some(kind) => netpbm::read(kind, bytes, interrupt),
+            Some(kind) => netpbm::read(kind, bytes, check_sides, interrupt),
             None => Err(RasterError::Unknown { found: kind_or_quote(bytes) }),
         }
     }

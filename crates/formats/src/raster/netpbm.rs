@@ -40,23 +40,40 @@ pub(super) fn kind(bytes: &[u8]) -> Option<Kind> {
 
 /// The sides that the header of a file of this kind states.
 pub(super) fn size(kind: Kind, bytes: &[u8]) -> Result<(u32, u32), RasterError> {
-    sides(kind, &mut Cursor { bytes, at: 2 })
+    let (width, height) = sides(kind, &mut Cursor { bytes, at: 2 })?;
+    check_sides(width, height)
+}
+
+/// The sides and the largest shade that the header of a PGM states; `None` for a PBM.
+#[cfg(feature = "surface")]
+pub(super) fn gray(kind: Kind, bytes: &[u8]) -> Result<Option<super::gray::Stated>, RasterError> {
+    let mut cursor = Cursor { bytes, at: 2 };
+    let sides = sides(kind, &mut cursor)?;
+    match kind {
+        Kind::PlainBitmap | Kind::Bitmap => Ok(None),
+        _ => Ok(Some((sides, cursor.maxval()?))),
+    }
 }
 
 /// The sides, which stand first in the header.
-fn sides(kind: Kind, cursor: &mut Cursor<'_>) -> Result<(u32, u32), RasterError> {
+fn sides(kind: Kind, cursor: &mut Cursor<'_>) -> Result<(u64, u64), RasterError> {
     if kind == Kind::Colours {
         return Err(RasterError::Colours { found: quote(&cursor.bytes[..2.min(cursor.bytes.len())]) });
     }
     let width = cursor.header_number("the width")?;
-    let height = cursor.header_number("the height")?;
-    check_sides(width, height)
+    Ok((width, cursor.header_number("the height")?))
 }
 
-/// Reads a file of this kind.
-pub(super) fn read(kind: Kind, bytes: &[u8], interrupt: &Interrupt) -> Result<Raster, RasterError> {
+/// Reads a file of this kind, if its sides pass a check.
+pub(super) fn read(
+    kind: Kind,
+    bytes: &[u8],
+    check: impl Fn(u64, u64) -> Result<(u32, u32), RasterError>,
+    interrupt: &Interrupt,
+) -> Result<Raster, RasterError> {
     let mut cursor = Cursor { bytes, at: 2 };
     let (width, height) = sides(kind, &mut cursor)?;
+    let (width, height) = check(width, height)?;
     let white = if matches!(kind, Kind::PlainBitmap | Kind::Bitmap) { 1 } else { cursor.maxval()? };
     let sides = (width, height);
     let shades = match kind {

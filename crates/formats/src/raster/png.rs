@@ -46,8 +46,23 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32), RasterError> {
     check_sides(u64::from(header.width), u64::from(header.height))
 }
 
-/// Reads a PNG row by row: the decoder keeps a row, and the samples grow with what was decoded.
-pub(super) fn read(bytes: &[u8], interrupt: &Interrupt) -> Result<Raster, RasterError> {
+/// The sides and the largest shade that the header states of a picture of gray; `None` for others.
+#[cfg(feature = "surface")]
+pub(super) fn gray(bytes: &[u8]) -> Result<Option<super::gray::Stated>, RasterError> {
+    let mut decoder = decoder(bytes);
+    let header = decoder.read_header_info()?;
+    let largest = (1 << header.bit_depth as u32) - 1;
+    let sides = (u64::from(header.width), u64::from(header.height));
+    Ok((header.color_type == ColorType::Grayscale).then_some((sides, largest)))
+}
+
+/// Reads a PNG whose sides pass a check, row by row: the decoder keeps a row, and the samples grow with what
+/// was decoded.
+pub(super) fn read(
+    bytes: &[u8],
+    check: impl Fn(u64, u64) -> Result<(u32, u32), RasterError>,
+    interrupt: &Interrupt,
+) -> Result<Raster, RasterError> {
     let mut decoder = decoder(bytes);
     // Palettes become colours, and gray of less than 8 bits becomes gray of 8, which changes no fraction of
     // white: 255 is a multiple of 1, 3 and 15.
@@ -55,7 +70,7 @@ pub(super) fn read(bytes: &[u8], interrupt: &Interrupt) -> Result<Raster, Raster
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info()?;
-    let (width, height) = check_sides(u64::from(header.width), u64::from(header.height))?;
+    let (width, height) = check(u64::from(header.width), u64::from(header.height))?;
     let interlaced = header.interlaced;
     let mut reader = decoder.read_info()?;
     check_palette(&reader)?;
@@ -205,6 +220,24 @@ pub(super) fn write(raster: &Raster, out: impl io::Write) -> io::Result<()> {
         }
         io::Write::write_all(&mut rows, &row)?;
     }
+    rows.finish().map_err(io_error)?;
+    writer.finish().map_err(io_error)
+}
+
+/// Writes a PNG of gray of 8 or 16 bits, of rows that `write` gives.
+#[cfg(feature = "surface")]
+pub(crate) fn write_gray(
+    out: impl io::Write,
+    (width, height): (u32, u32),
+    is_wide: bool,
+    write: impl FnOnce(&mut dyn io::Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut encoder = Encoder::new(out, width, height);
+    encoder.set_depth(if is_wide { BitDepth::Sixteen } else { BitDepth::Eight });
+    encoder.set_color(ColorType::Grayscale);
+    let mut writer = encoder.write_header().map_err(io_error)?;
+    let mut rows = writer.stream_writer().map_err(io_error)?;
+    write(&mut rows)?;
     rows.finish().map_err(io_error)?;
     writer.finish().map_err(io_error)
 }

@@ -16,5 +16,6 @@ mod ros;
 mod save;
 mod scenario;
 mod source;
+mod surface;
 mod trace;
 mod world;
