@@ -19,7 +19,7 @@
 //! ```
 //!
 //! A `Surface` has a number a cell, as costs and heights are: from NPY, an ESRI ASCII grid, PGM, PNG or
-//! GeoTIFF by `read_surface`, and written to each of them, with its place in the world where the format has one.
+//! GeoTIFF by `read_surface`, and written to each, with its place in the world where the format has one.
 //!
 //! A [`Scenario`] has queries on one map, a [`DynamicScenario`] those on a map that changes between them: one
 //! of the Grid-Based Path Planning Competition, made of patches.
@@ -43,8 +43,8 @@
 //! The formats of maps and scenarios are those of Sturtevant, *Benchmarks for Grid-Based Pathfinding* (2012);
 //! of PGM and PBM, those of the manual pages of Netpbm; of PNG, that of its specification (W3C, third
 //! edition), by the crate `png`; of ROS maps, what the `map_server` of nav2 reads today, or that of ROS 1; of
-//! NPY, that of NumPy's NEP 1; of GeoTIFF, TIFF 6.0 and BigTIFF, by the crate `tiff`, with the tags of GeoTIFF
-//! 1.1.
+//! NPY, that of NumPy's NEP 1; of GeoTIFF, TIFF 6.0 and BigTIFF, by the crate `tiff`, with the tags of
+//! GeoTIFF 1.1.
 //!
 //! | feature | adds | compiles in addition |
 //! |---|---|---|

@@ -20,7 +20,7 @@ pub struct SurfaceOptions {
     pub band: Option<u16>,
     /// The most bytes that the numbers of a raster may take, 2³³ by default: enough for the largest raster of
     /// 16 bits. A file that needs more is refused before anything is allocated. A reader that unpacks a PNG
-    /// or a GeoTIFF may take three times that for a while.
+    /// or a GeoTIFF, or turns the columns of an NPY into rows, may take three times that for a while.
     pub max_bytes: u64,
 }
 

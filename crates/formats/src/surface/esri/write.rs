@@ -10,8 +10,10 @@ use super::super::{
 
 impl Surface {
     /// Writes the raster as an ESRI ASCII grid. Numbers have as many digits as tell them from all others of
-    /// their type. Without a cell size cells are 1 × 1, and without a place the lower left corner is (0, 0).
-    /// Cells that are not square have `dx` and `dy`, which GDAL reads and ArcGIS does not.
+    /// their type. Floats have a point or an exponent, so that they are read as such; so have the numbers of
+    /// a raster with integers of 2³¹ or more, which GDAL would cut to 32 bits. Without a cell size cells are
+    /// 1 × 1, and without a place the lower left corner is (0, 0). Cells that are not square have `dx` and
+    /// `dy`, which GDAL reads and ArcGIS does not.
     ///
     /// A header always names a number for 'no data', since −9999 counts as such otherwise: the raster's, or
     /// the first of −9999, −99999, … that no cell has. NaN is written as that number.
@@ -34,6 +36,7 @@ impl Surface {
             None => self.unused().to_string(),
         };
         writeln!(out, "NODATA_value {no_data}")?;
+        let end = if self.has_large_integers() { ".0" } else { "" };
         let mut row = Vec::new();
         let columns = self.width as usize;
         for start in (0..self.samples.len()).step_by(columns) {
@@ -46,7 +49,7 @@ impl Surface {
                     if self.samples.get(start + x).is_some_and(f64::is_nan) {
                         row.extend(no_data.as_bytes());
                     } else {
-                        write!(row, "{number}")?;
+                        write!(row, "{number:?}{end}")?;
                     }
                 }
             });
@@ -59,17 +62,20 @@ impl Surface {
     /// A number in the digits of the samples' type.
     fn word(&self, number: f64) -> String {
         match self.samples {
-            Samples::F32(_) => (number as f32).to_string(),
+            Samples::F32(_) => format!("{:?}", number as f32),
+            Samples::F64(_) => format!("{number:?}"),
             _ => number.to_string(),
         }
     }
 
-    /// −9999, or with more nines, so that no cell has it.
+    fn has_large_integers(&self) -> bool {
+        matches!(&self.samples, Samples::U32(all) if all.iter().any(|&number| number > i32::MAX as u32))
+    }
+
+    /// −9999, or with more nines, so that no cell has it; NaN if cells have all of them.
     fn unused(&self) -> f64 {
-        let mut number = -9999.0;
-        while (0..self.samples.len()).any(|at| self.samples.get(at) == Some(number)) {
-            number = number * 10.0 - 9.0;
-        }
-        number
+        let is_used = |number| (0..self.samples.len()).any(|at| self.samples.get(at) == Some(number));
+        let all = std::iter::successors(Some(-9999.0_f64), |number| Some(number * 10.0 - 9.0));
+        all.take_while(|number| number.is_finite()).find(|&number| !is_used(number)).unwrap_or(f64::NAN)
     }
 }

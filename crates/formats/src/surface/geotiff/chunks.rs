@@ -8,7 +8,7 @@ use tiff::{
 };
 
 use super::{
-    super::{READING, Samples, source::Source},
+    super::{READING, Samples, samples::each, source::Source},
     Directory, Layout, SurfaceError, error,
     layout::PHOTOMETRIC,
     overlay::Overlay,
@@ -44,35 +44,41 @@ pub(super) fn read(
     // All sizes were compared with the file and the budget.
     let mut decoder = Decoder::new(file)?.with_limits(Limits::unlimited());
     let stated = (decoder.dimensions()?, decoder.chunk_dimensions());
-    let chunk_rows = |rows: u64| rows.min(layout.height.into()) == layout.chunk.1.min(layout.height.into());
+    let chunk_rows =
+        |rows: u64| rows.min(layout.height.into()) == layout.chunks.height.min(layout.height.into());
     if stated.0 != (layout.width, layout.height)
-        || u64::from(stated.1.0) != layout.chunk.0
+        || u64::from(stated.1.0) != layout.chunks.width
         || !chunk_rows(stated.1.1.into())
     {
         return Err(error("sides that are stated once", "different ones"));
     }
     let mut samples = layout.number.none();
+    if layout.is_stored && layout.chunks.places.iter().all(|&place| place != (0, 0)) {
+        let cells = u64::from(layout.width) * u64::from(layout.height);
+        let cells = usize::try_from(cells).map_err(|_| SurfaceError::Memory)?;
+        each!(&mut samples, all => all.try_reserve_exact(cells)?);
+    }
     let empty = layout.number.to_bytes(no_data.unwrap_or(0.0));
     let (mut chunk, mut rows) = (Vec::new(), Vec::new());
-    for down in 0..layout.down {
+    for down in 0..layout.chunks.down {
         let size = layout.rows(down) * u64::from(layout.width) * layout.number.bytes() as u64;
         resize(&mut rows, size)?;
-        for across in 0..layout.across {
+        for across in 0..layout.chunks.across {
             source.interrupt.check(READING)?;
-            let at = layout.first + down * layout.across + across;
-            let place = layout.places.get(at as usize);
+            let at = layout.first + down * layout.chunks.across + across;
+            let place = layout.chunks.places.get(at as usize);
             if place == Some(&(0, 0)) {
                 put(layout, &mut rows, (across, down), |_, cells| {
                     cells.chunks_exact_mut(empty.len()).for_each(|cell| cell.copy_from_slice(&empty));
                 });
                 continue;
             }
-            let columns = layout.chunk.0.min(u64::from(layout.width) - across * layout.chunk.0);
+            let columns = layout.chunks.width.min(u64::from(layout.width) - across * layout.chunks.width);
             let row_bytes = layout.row_bytes(columns);
             resize(&mut chunk, row_bytes * layout.rows(down))?;
             // No loss: there are not more chunks than bytes of tags, of which each has at least two.
             decoder.read_chunk_bytes(at as u32, &mut chunk)?;
-            if layout.across == 1 && layout.bands == 1 && layout.bits >= 8 {
+            if layout.chunks.across == 1 && layout.bands == 1 && layout.bits >= 8 {
                 std::mem::swap(&mut chunk, &mut rows);
                 continue;
             }
@@ -82,7 +88,7 @@ pub(super) fn read(
         }
         layout.number.extend(&mut samples, &mut rows, cfg!(target_endian = "big"), layout.width)?;
     }
-    super::super::samples::each!(&mut samples, all => all.shrink_to_fit());
+    each!(&mut samples, all => all.shrink_to_fit());
     Ok(samples)
 }
 
@@ -97,7 +103,7 @@ fn resize(bytes: &mut Vec<u8>, size: u64) -> Result<(), SurfaceError> {
 /// Gives the cells of each row of a chunk to a function: their place among all rows of the chunks beside it.
 fn put(layout: &Layout, rows: &mut [u8], (across, down): (u64, u64), mut put: impl FnMut(usize, &mut [u8])) {
     // No loss: all lie inside of `rows`.
-    let [width, left, columns] = [u64::from(layout.width), across * layout.chunk.0, layout.chunk.0]
+    let [width, left, columns] = [u64::from(layout.width), across * layout.chunks.width, layout.chunks.width]
         .map(|cells| cells as usize * layout.number.bytes());
     for row in 0..layout.rows(down) as usize {
         let start = row * width + left;

@@ -25,7 +25,7 @@ const SAMPLE_FORMAT: u16 = 339;
 /// More than any of the compressions makes of a byte: deflate 1032, LZW 2731, PackBits 64.
 const MOST_UNPACKED: u64 = 4096;
 
-/// Strips or tiles: rectangles of samples, each compressed for itself.
+/// The samples of a TIFF.
 #[derive(Debug)]
 pub(super) struct Layout {
     pub(super) width: u32,
@@ -36,14 +36,25 @@ pub(super) struct Layout {
     /// The samples of each cell in a chunk, and which of them is read, from 0.
     pub(super) bands: u16,
     pub(super) band: u16,
-    /// The first chunk of the band that is read, and the number of its chunks beside and below each other.
+    /// The first chunk of the band that is read.
     pub(super) first: u64,
+    /// Whether the samples are not compressed: the file has as many bytes as they take.
+    pub(super) is_stored: bool,
+    pub(super) chunks: Chunks,
+}
+
+/// Strips or tiles: rectangles of samples, each compressed for itself.
+#[derive(Debug)]
+pub(super) struct Chunks {
+    is_tiled: bool,
+    /// Columns and rows of a chunk.
+    pub(super) width: u64,
+    pub(super) height: u64,
+    /// The number of chunks beside and below each other.
     pub(super) across: u64,
     pub(super) down: u64,
-    /// Columns and rows of a chunk.
-    pub(super) chunk: (u64, u64),
-    is_tiled: bool,
-    /// Of each chunk of all bands: its place in the file, and its bytes there.
+    /// Of each chunk of all bands: its place in the file, and its bytes there. Both are 0 for a chunk that is
+    /// left out.
     pub(super) places: Vec<(u64, u64)>,
 }
 
@@ -80,32 +91,13 @@ impl Layout {
             return Err(error("a raster of numbers", "a photograph (YCbCr)"));
         }
         let is_planar = first(PLANAR, 1, source)? == 2;
-        let is_tiled = directory.first(TILE_OFFSETS, source)?.is_some();
-        let (offsets, counts, chunk) = if is_tiled {
-            let tile = (first(TILE_WIDTH, 0, source)?, first(TILE_HEIGHT, 0, source)?);
-            (TILE_OFFSETS, TILE_BYTES, tile)
-        } else {
-            let rows = first(STRIP_ROWS, height.into(), source)?;
-            (STRIP_OFFSETS, STRIP_BYTES, (width.into(), rows.min(height.into())))
-        };
-        if chunk.0 == 0 || chunk.1 == 0 {
-            return Err(error("strips or tiles with rows and columns", "some without"));
-        }
-        let (across, down) = (u64::from(width).div_ceil(chunk.0), u64::from(height).div_ceil(chunk.1));
-        let (offsets, counts) = (directory.numbers(offsets, source)?, directory.numbers(counts, source)?);
         let planes = if is_planar { u64::from(all_bands) } else { 1 };
-        // At most 2⁴⁰ chunks of 2¹⁶ bands.
-        let chunks = across * down * planes;
-        if offsets.len() as u64 != chunks || counts.len() as u64 != chunks {
-            let found = format!("{} places and {} lengths", offsets.len(), counts.len());
-            return Err(error(format!("{chunks} strips or tiles"), found));
-        }
-        let places = offsets.into_iter().zip(counts).collect();
         let (bands, band, plane) = if is_planar { (1, 0, band) } else { (all_bands, band, 0) };
-        let first = u64::from(plane) * across * down;
-        let layout =
-            Self { width, height, number, bits, bands, band, first, across, down, chunk, is_tiled, places };
-        layout.check(compression, source)?;
+        let chunks = Chunks::read((width, height), planes, directory, source)?;
+        let first = u64::from(plane) * chunks.across * chunks.down;
+        let is_stored = compression == 1;
+        let layout = Self { width, height, number, bits, bands, band, first, is_stored, chunks };
+        layout.check(source)?;
         Ok(layout)
     }
 
@@ -116,40 +108,75 @@ impl Layout {
 
     /// The rows of the chunks that are so far down, without those below the raster.
     pub(super) fn rows(&self, down: u64) -> u64 {
-        self.chunk.1.min(u64::from(self.height) - down * self.chunk.1)
+        self.chunks.height.min(u64::from(self.height) - down * self.chunks.height)
     }
 
     /// Checks that the file has all chunks of the band, and that none is said to be larger than it can be.
-    fn check(&self, compression: u64, source: &Source<'_>) -> Result<(), SurfaceError> {
+    fn check(&self, source: &Source<'_>) -> Result<(), SurfaceError> {
         if self.bits < 8 && self.bands > 1 {
             return Err(error("bands of at least 8 bits", format!("{} bits", self.bits)));
         }
-        let mut sum = 0;
-        for at in 0..self.across * self.down {
-            let (place, count) = self.places[(self.first + at) as usize];
+        let mut sum: u64 = 0;
+        let chunks = &self.chunks;
+        for at in 0..chunks.across * chunks.down {
+            let (place, count) = chunks.places[(self.first + at) as usize];
             if (place, count) == (0, 0) {
                 continue;
             }
-            let rows = if self.is_tiled { self.chunk.1 } else { self.rows(at / self.across) };
+            let rows = if chunks.is_tiled { chunks.height } else { self.rows(at / chunks.across) };
             // A width of 2³² of 64 bits and 2¹⁶ bands fits.
-            let size = self.row_bytes(self.chunk.0).saturating_mul(rows);
-            let most = if compression == 1 { source.length } else { count.saturating_mul(MOST_UNPACKED) };
+            let size = self.row_bytes(chunks.width).saturating_mul(rows);
+            let most = if self.is_stored { source.length } else { count.saturating_mul(MOST_UNPACKED) };
             if size > most {
                 let expected = format!("strips or tiles whose {size} bytes are all in the file");
                 return Err(error(expected, format!("one of {count} bytes; is it cut short?")));
             }
-            let end = if compression == 1 { size } else { count };
+            let end = if self.is_stored { size } else { count };
             if place.checked_add(end).is_none_or(|end| end > source.length) {
                 let expected = place.saturating_add(end);
                 return Err(SurfaceError::Short { unit: "bytes", expected, found: source.length });
             }
-            sum += size;
+            sum = sum.saturating_add(size);
         }
-        if compression == 1 && sum > source.length {
+        if self.is_stored && sum > source.length {
             let expected = format!("{sum} bytes of strips or tiles");
             return Err(error(expected, "some that are stored in one place"));
         }
         Ok(())
+    }
+}
+
+impl Chunks {
+    fn read(
+        (width, height): (u32, u32),
+        planes: u64,
+        directory: &Directory,
+        source: &mut Source<'_>,
+    ) -> Result<Self, SurfaceError> {
+        let (width, height) = (u64::from(width), u64::from(height));
+        let is_tiled = directory.first(TILE_OFFSETS, source)?.is_some();
+        let mut side = |tag, default| -> Result<u64, SurfaceError> {
+            Ok(directory.first(tag, source)?.unwrap_or(default))
+        };
+        let (chunk_width, chunk_height) = if is_tiled {
+            (side(TILE_WIDTH, 0)?, side(TILE_HEIGHT, 0)?)
+        } else {
+            (width, side(STRIP_ROWS, height)?.min(height))
+        };
+        if chunk_width == 0 || chunk_height == 0 {
+            return Err(error("strips or tiles with rows and columns", "some without"));
+        }
+        let (across, down) = (width.div_ceil(chunk_width), height.div_ceil(chunk_height));
+        let tags = if is_tiled { (TILE_OFFSETS, TILE_BYTES) } else { (STRIP_OFFSETS, STRIP_BYTES) };
+        let (offsets, counts) = (directory.numbers(tags.0, source)?, directory.numbers(tags.1, source)?);
+        // At most 2⁴⁰ chunks of 2¹⁶ bands.
+        let chunks = across * down * planes;
+        if offsets.len() as u64 != chunks || counts.len() as u64 != chunks {
+            let found = format!("{} places and {} lengths", offsets.len(), counts.len());
+            return Err(error(format!("{chunks} strips or tiles"), found));
+        }
+        let places = offsets.into_iter().zip(counts).collect();
+        Ok(Self { is_tiled, width: chunk_width, height: chunk_height, across, down, places })
     }
 }
 

@@ -252,6 +252,18 @@ fn files_on_a_disk() {
     );
 }
 
+#[test]
+fn sheared_rasters() {
+    let mut bytes = fixture("gdal-rotated.tif");
+    let skew = (-8.0_f64).to_le_bytes();
+    let at = bytes.windows(8).position(|word| word == skew).unwrap();
+    bytes[at..][..8].copy_from_slice(&7.0_f64.to_le_bytes());
+    assert_eq!(
+        message(&bytes),
+        "the GeoTIFF: expected cells that are rectangles, found a sheared raster; warp it, for example by `gdalwarp`"
+    );
+}
+
 /// A set flag stops the reading of every kind of file.
 #[test]
 fn interrupts() {
