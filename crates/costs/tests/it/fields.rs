@@ -1,6 +1,6 @@
 //! Fields, against Dijkstra's algorithm on the explicit graph with exact integrals.
 
-use std::sync::Arc;
+use std::{num::NonZeroUsize, sync::Arc};
 
 use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostMap};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
@@ -80,6 +80,27 @@ fn a_limit_holds_exactly_what_is_as_near() {
                 let expected = whole.get(at).filter(|&cost| cost <= limit * (1.0 + 1e-9));
                 assert_eq!(within.get(at), expected, "{at} within {limit} of {source}: {about}");
             }
+        }
+    });
+}
+
+#[test]
+fn several_threads_find_the_same_field() {
+    for_random_maps(30, |map, surface, rules, k, about| {
+        let graph = graph(surface, rules, k);
+        let Some(source) = random_free_vertex(&mut Rng::new(7), map.grid(), rules.placement()) else {
+            return;
+        };
+        let query = CostFieldQuery::new(std::slice::from_ref(&source));
+        let alone = field(&graph, query);
+        for threads in [2, 3] {
+            let threads = NonZeroUsize::new(threads).expect("not 0");
+            let together = CostField::on_threads(Arc::clone(&graph), query, threads, &Interrupt::NEVER);
+            let together = together.expect("the source is free");
+            assert!(
+                vertices(&graph).all(|at| together.cost(at) == alone.cost(at)),
+                "{threads} threads: {about}"
+            );
         }
     });
 }
