@@ -4,18 +4,18 @@
 //! of the row. The answer is the lower envelope of all parabolas, found from left to right with a stack
 //! (Meijster, Roerdink & Hesselink 2000; Felzenszwalb & Huttenlocher 2012), in integers and linear time.
 //!
-//! * **Corner vertices** are points, and so are the sites: F_e(x) = (x − e)² + g_e² for a column e whose
-//!   nearest site is g_e rows away.
-//! * **Centers** measure in half cells. The edges of columns are the sites, since the nearest point of a
-//!   blocked square in another column lies on an edge of that column: F_e(x) = (2x + 1 − 2e)² + h_e, where
-//!   h_e is that of the nearer one of the two columns beside edge e. Seen from a center, a blocked square g >
-//!   0 rows away begins at 2g − 1 half cells: h = (2g − 1)², and 0 for g = 0. The column of x itself is
-//!   straight above and below x, at h, and is compared at the end.
+//! * **Corner vertices**, and centers seen from centers, are points, and so are the sites: F_e(x) = (x − e)²
+//!   + g_e² for a column e whose nearest site is g_e rows away.
+//! * **Centers** measure to squares in half cells. The edges of columns are the sites, since the nearest
+//!   point of a blocked square in another column lies on an edge of that column: F_e(x) = (2x + 1 − 2e)² +
+//!   h_e, where h_e is that of the nearer one of the two columns beside edge e. Seen from a center, a blocked
+//!   square g > 0 rows away begins at 2g − 1 half cells: h = (2g − 1)², and 0 for g = 0. The column of x
+//!   itself is straight above and below x, at h, and is compared at the end.
 //!
 //! Where columns differ at random, most parabolas are nowhere lowest, and which ones cannot be predicted. So
 //! most of these are left out beforehand, without branches: those that near ones hide.
 
-use super::{Fit, columns::NONE};
+use super::{columns::NONE, sites::Measure};
 
 /// A parabola of the envelope, F(x) = (A·x + B)² + constant − 2A²·site·x.
 #[derive(Clone, Copy, Default)]
@@ -40,14 +40,14 @@ pub(super) struct Envelope {
 impl Envelope {
     /// Squared distances from distances along columns; [`u32::MAX`] where there is no site or none as near.
     /// Centers also take the distances along the columns just beyond the first and the last one.
-    pub(super) fn row(&mut self, fit: Fit, beyond: [u16; 2], columns: &[u16], squared: &mut [u32]) {
+    pub(super) fn row(&mut self, measure: Measure, beyond: [u16; 2], columns: &[u16], squared: &mut [u32]) {
         self.distances.clear();
-        match fit {
-            Fit::WholeCells => {
+        match measure {
+            Measure::CornersToSquares | Measure::CentersToCenters => {
                 self.distances.extend_from_slice(columns);
                 self.write::<1, 0>(|g| u32::from(g) * u32::from(g), squared);
             }
-            Fit::Centers => {
+            Measure::CentersToSquares => {
                 let [first, last] = [(columns.first(), beyond[0]), (columns.last(), beyond[1])]
                     .map(|(g, beyond)| beyond.min(*g.unwrap_or(&beyond)));
                 self.distances.push(first);

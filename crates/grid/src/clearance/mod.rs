@@ -8,6 +8,7 @@
 //! the nearest obstacle is in each column, and [`envelope`] combines the columns row by row. A map for one
 //! radius is then one comparison a cell ([`disc`]).
 
+mod centers;
 mod columns;
 mod disc;
 mod envelope;
@@ -128,7 +129,7 @@ impl Clearance {
         outside: Outside,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
-        let sites = sites::Sites { rows: grid.rows(), fit, outside };
+        let sites = sites::Sites { rows: grid.rows(), measure: fit.into(), outside };
         let squared = transform::squared_distances(sites, interrupt)?;
         let (width, height) = (u64::from(grid.width()), u64::from(grid.height()));
         let unlimited = outside == Outside::Open && grid.free_cells() == width * height;

@@ -15,7 +15,12 @@
 
 use std::ops::Range;
 
-use super::{Clearance, Fit, Outside, columns::NONE, envelope::Envelope, sites::Sites};
+use super::{
+    Clearance, Outside,
+    columns::NONE,
+    envelope::Envelope,
+    sites::{Measure, Sites},
+};
 use crate::{Change, Grid, VersionEdit};
 
 /// A repair takes a step for every so many points at most. These steps are less work than half of a new
@@ -67,7 +72,7 @@ struct Repair<'c> {
 impl<'c> Repair<'c> {
     fn new(clearance: &Clearance, change: &'c Change) -> Self {
         let (fit, outside) = (clearance.fit, clearance.outside);
-        let by_columns = |grid: &'c Grid| Sites { rows: grid.columns(), fit, outside };
+        let by_columns = |grid: &'c Grid| Sites { rows: grid.columns(), measure: fit.into(), outside };
         let sites = [by_columns(change.before()), by_columns(change.after())];
         let (height, width) = sites[0].size();
         let left = clearance.squared.len() / SHARE;
@@ -78,7 +83,7 @@ impl<'c> Repair<'c> {
     fn follow(mut self, change: &Change) -> Option<VersionEdit<u32>> {
         let (mut new, mut gone) = (Vec::new(), Vec::new());
         for at in change.cells() {
-            let more = usize::from(self.sites[0].fit == Fit::WholeCells);
+            let more = usize::from(self.sites[0].measure.is_from_corners());
             let side = |first: u32, count: u32| first as usize..(first + count) as usize + more;
             let (columns, rows) = (side(at.x, at.width), side(at.y, at.height));
             self.spend(columns.len() * rows.len())?;
@@ -132,9 +137,9 @@ impl<'c> Repair<'c> {
     fn square(&self, site: At, at: At) -> u32 {
         let [across, along] = [site.0.abs_diff(at.0), site.1.abs_diff(at.1)].map(|points| {
             let points = points as u64;
-            match self.sites[0].fit {
-                Fit::Centers => (2 * points).saturating_sub(1),
-                Fit::WholeCells => points,
+            match self.sites[0].measure {
+                Measure::CentersToSquares => (2 * points).saturating_sub(1),
+                Measure::CornersToSquares | Measure::CentersToCenters => points,
             }
         });
         u32::try_from(across * across + along * along).unwrap_or(u32::MAX)
@@ -145,7 +150,7 @@ impl<'c> Repair<'c> {
         let (start, width) = (y * self.size.0, self.size.0);
         let row = &self.squared.words()[start..start + width];
         let holds = |x: &usize| self.square(site, (*x, y)) <= row[*x];
-        let scale = if self.sites[0].fit == Fit::Centers { 2 } else { 1 };
+        let scale = if self.sites[0].measure == Measure::CentersToSquares { 2 } else { 1 };
         // Whether a site that is as near to this point as the square says is not beyond the column of `site`.
         let is_hidden = |x: usize| {
             let within = (scale * x.abs_diff(site.0) as u64).saturating_sub(1);
@@ -198,7 +203,7 @@ impl<'c> Repair<'c> {
             squares.resize(to - from, 0);
             let edge = if sites.outside == Outside::Blocked { 0 } else { NONE };
             let beyond = [from == 0, to == width].map(|is_edge| if is_edge { edge } else { NONE });
-            envelope.row(sites.fit, beyond, &columns, &mut squares);
+            envelope.row(sites.measure, beyond, &columns, &mut squares);
             for x in first..end {
                 self.squared.set(start + x, squares[x - from]);
             }

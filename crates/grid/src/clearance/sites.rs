@@ -3,6 +3,32 @@
 use super::{Fit, Outside};
 use crate::BitMatrix;
 
+/// From which points distances are measured, and to what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Measure {
+    /// From cell centers to blocked squares, in half cells.
+    CentersToSquares,
+    /// From corner vertices to blocked squares, in cells.
+    CornersToSquares,
+    /// From cell centers to the centers of blocked cells, in cells.
+    CentersToCenters,
+}
+
+impl From<Fit> for Measure {
+    fn from(fit: Fit) -> Self {
+        match fit {
+            Fit::Centers => Self::CentersToSquares,
+            Fit::WholeCells => Self::CornersToSquares,
+        }
+    }
+}
+
+impl Measure {
+    pub(super) const fn is_from_corners(self) -> bool {
+        matches!(self, Self::CornersToSquares)
+    }
+}
+
 /// The cell centers, or the corner vertices, that lie on obstacles.
 ///
 /// A blocked cell is a closed square. The point of it that is nearest to a corner vertex is a corner vertex,
@@ -11,14 +37,14 @@ use crate::BitMatrix;
 #[derive(Clone, Copy)]
 pub(super) struct Sites<'g> {
     pub(super) rows: &'g BitMatrix,
-    pub(super) fit: Fit,
+    pub(super) measure: Measure,
     pub(super) outside: Outside,
 }
 
 impl Sites<'_> {
     /// The columns and rows of centers or corner vertices.
     pub(super) const fn size(self) -> (usize, usize) {
-        let more = matches!(self.fit, Fit::WholeCells) as usize;
+        let more = self.measure.is_from_corners() as usize;
         (self.rows.width() as usize + more, self.rows.height() as usize + more)
     }
 
@@ -30,13 +56,11 @@ impl Sites<'_> {
     /// Word `word` of row y, 1 = on an obstacle. The bits beyond the last column mean nothing.
     #[inline]
     pub(super) fn word(self, word: usize, y: usize) -> u64 {
-        match self.fit {
-            Fit::Centers => self.rows.row_words(y as u32)[word],
-            Fit::WholeCells => {
-                let [before, here] = [word.wrapping_sub(1), word].map(|at| self.cells(at, y));
-                here | here << 1 | before >> 63
-            }
+        if !self.measure.is_from_corners() {
+            return self.rows.row_words(y as u32)[word];
         }
+        let [before, here] = [word.wrapping_sub(1), word].map(|at| self.cells(at, y));
+        here | here << 1 | before >> 63
     }
 
     /// The 64 cells of row y or of the row above that are blocked, the outside of the map among them if it

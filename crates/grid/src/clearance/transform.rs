@@ -29,7 +29,7 @@ pub(super) fn squared_distances(sites: Sites<'_>, interrupt: &Interrupt) -> Resu
         columns::for_each_row(sites, band, beyond, &mut scratch.upwards, |y, distances| {
             let start = (y - band * BAND) * width;
             check()?;
-            scratch.envelope.row(sites.fit, [outside; 2], distances, &mut squared[start..start + width]);
+            scratch.envelope.row(sites.measure, [outside; 2], distances, &mut squared[start..start + width]);
             Ok(())
         })
     };

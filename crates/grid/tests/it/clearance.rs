@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Clearance, Fit, Grid, Outside, SizeError, Vertex};
+use mediant_grid::{Clearance, Fit, Grid, Interrupt, Outside, SizeError, Vertex};
 use mediant_oracle::{Rng, caves, noise, on_all_cores, random_change, rooms, seeds, suite_grid};
 
 pub(crate) const KINDS: [(Fit, Outside); 4] = [
@@ -240,4 +240,19 @@ fn clearances_follow_edits() {
             }
         }
     });
+}
+
+#[test]
+fn centers_are_as_far_from_the_nearest_blocked_one_as_they_are() {
+    for seed in seeds(60) {
+        let (grid, kind) = suite_grid(seed);
+        let found = grid.squared_center_distances(&Interrupt::NEVER).expect("nothing stops it");
+        let cells = || (0..grid.height() as i32).flat_map(|y| (0..grid.width() as i32).map(move |x| (x, y)));
+        let blocked: Vec<_> = cells().filter(|&(x, y)| grid.is_blocked(x, y)).collect();
+        for ((x, y), &found) in cells().zip(&found) {
+            let squared = |&(i, j): &(i32, i32)| ((x - i) * (x - i) + (y - j) * (y - j)) as u32;
+            let expected = blocked.iter().map(squared).min().unwrap_or(u32::MAX);
+            assert_eq!(found, expected, "({x}, {y}), {kind}, seed {seed}:\n{}", draw(&grid));
+        }
+    }
 }

@@ -61,6 +61,7 @@ fn components_and_gaps_stop() {
 #[test]
 fn clearances_stop() {
     let grid = grid();
+    check_interrupts("centers", ROWS, |i| grid.squared_center_distances(i), by);
     for fit in [Fit::Centers, Fit::WholeCells] {
         let measure = |i: &Interrupt| Clearance::interruptible(Arc::clone(&grid), fit, Outside::Blocked, i);
         check_interrupts("clearances", ROWS, measure, by);
