@@ -43,13 +43,57 @@ impl RosMap {
     /// The occupancy of cell (x, y), 0 to 100; `None` if it is unknown, and outside the map.
     #[must_use]
     pub fn occupancy(&self, x: u32, y: u32, ros: RosVersion) -> Option<u8> {
+        self.occupancy_by(x, y, ros, |gray| self.of_luma(gray), |shade| self.of_shade(shade))
+    }
+
+    /// The occupancies of all cells, 0 to 100, row by row from the top; `None` for unknown ones. In trinary
+    /// mode they are 0 or 100; in scale mode they rise between the thresholds; in raw mode they are the
+    /// picture's own numbers.
+    ///
+    /// ```
+    /// use mediant_formats::{Raster, RosMap, RosMode, RosSettings, RosVersion};
+    /// let picture = Raster::parse(b"P2 4 1 255  255 128 0 99")?;
+    /// let mut settings = RosSettings::new("depot.pgm", 0.05, [0.0; 3]);
+    /// settings.mode = RosMode::Scale;
+    /// let scale = RosMap::new(settings.clone(), picture.clone())?;
+    /// let numbers = |map: &RosMap| map.occupancies(RosVersion::Ros2).collect::<Vec<_>>();
+    /// assert_eq!(numbers(&scale), [Some(0), Some(67), Some(100), Some(92)]);
+    /// settings.mode = RosMode::Raw;
+    /// let raw = RosMap::new(settings, picture)?;
+    /// assert_eq!(numbers(&raw), [None, None, Some(0), Some(99)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn occupancies(&self, ros: RosVersion) -> impl ExactSizeIterator<Item = Option<u8>> {
+        // Lumas and shades are few, and pixels many.
+        let (lumas, shades) = match ros {
+            RosVersion::Ros1 => (0, self.raster.white() + 1),
+            RosVersion::Ros2 => (256, 0),
+        };
+        let lumas: Vec<_> = (0..lumas).map(|gray| self.of_luma(gray as u8)).collect();
+        let shades: Vec<_> = (0..shades).map(|shade| self.of_shade(shade)).collect();
+        let (width, height) = (self.raster.width() as usize, self.raster.height() as usize);
+        (0..width * height).map(move |at| {
+            let (x, y) = ((at % width) as u32, (at / width) as u32);
+            self.occupancy_by(x, y, ros, |gray| lumas[usize::from(gray)], |shade| shades[shade as usize])
+        })
+    }
+
+    fn occupancy_by(
+        &self,
+        x: u32,
+        y: u32,
+        ros: RosVersion,
+        of_luma: impl Fn(u8) -> Option<u8>,
+        of_shade: impl Fn(u32) -> Option<u8>,
+    ) -> Option<u8> {
         let opacity = self.raster.opaque().zip(self.raster.opacity(x, y));
         match ros {
-            RosVersion::Ros1 => self.of_ros1(self.raster.shade(x, y)?, opacity),
+            RosVersion::Ros1 => self.of_ros1(self.raster.shade(x, y)?, opacity, of_shade),
             RosVersion::Ros2 => {
                 let is_hidden = opacity.is_some_and(|(opaque, opacity)| opacity < opaque);
                 let counts = self.settings.mode != RosMode::Raw;
-                self.raster.luma(x, y).filter(|_| !(is_hidden && counts)).and_then(|gray| self.of_luma(gray))
+                self.raster.luma(x, y).filter(|_| !(is_hidden && counts)).and_then(of_luma)
             }
         }
     }
@@ -103,11 +147,16 @@ impl RosMap {
     }
 
     /// The occupancy of a pixel, by ROS 1; of one with an opacity it is given after that of opaque pixels.
-    fn of_ros1(&self, shade: u32, opacity: Option<(u32, u32)>) -> Option<u8> {
+    fn of_ros1(
+        &self,
+        shade: u32,
+        opacity: Option<(u32, u32)>,
+        of_shade: impl Fn(u32) -> Option<u8>,
+    ) -> Option<u8> {
         match (self.settings.mode, opacity) {
             (RosMode::Trinary, Some((opaque, opacity))) => self.trinary_of_four(shade, opacity, opaque),
             (RosMode::Scale, Some((opaque, opacity))) if opacity < opaque => None,
-            _ => self.of_shade(shade),
+            _ => of_shade(shade),
         }
     }
 

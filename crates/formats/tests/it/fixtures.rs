@@ -70,8 +70,11 @@ fn ros_maps() {
             RosVersion::Ros2 => path.with_extension("yaml.ros2"),
         });
         assert_eq!(numbers.len() as u32, width * map.raster().height());
-        for (at, expected) in numbers.into_iter().enumerate() {
+        let all = map.occupancies(ros);
+        assert_eq!(numbers.len(), all.len());
+        for ((at, expected), of_all) in numbers.into_iter().enumerate().zip(all) {
             let (x, y) = (at as u32 % width, at as u32 / width);
+            assert_eq!(map.occupancy(x, y, ros), of_all, "{}, {ros:?}: ({x}, {y})", path.display());
             let found = map.occupancy(x, y, ros).map_or(-1, i64::from);
             assert_eq!(found, expected, "{}, {ros:?}: occupancy of ({x}, {y})", path.display());
         }
