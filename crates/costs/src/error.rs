@@ -75,6 +75,39 @@ pub enum CostsError {
         /// The row.
         y: u32,
     },
+    /// A setting that is no number, or not one that it can have.
+    #[error("`{name}` is {value}: it must be {expected}")]
+    Setting {
+        /// Its name.
+        name: &'static str,
+        /// The value.
+        value: f64,
+        /// The numbers that it can have.
+        expected: &'static str,
+    },
+    /// Costs would not reach as far as the robot does.
+    #[error(
+        "`inflation_radius` is {inflation} and `inscribed_radius` {inscribed}: cells between them would seem free, and \
+         a robot on them would touch an obstacle; choose an inflation radius of at least the inscribed one"
+    )]
+    SmallInflation {
+        /// The inflation radius.
+        inflation: f64,
+        /// The inscribed radius.
+        inscribed: f64,
+    },
+    /// A costmap with a side that is too long for its obstacles to be inflated.
+    #[error(
+        "a costmap of {width} × {height} cells: obstacles can be inflated up to {max} cells a side; split it"
+    )]
+    Inflated {
+        /// The number of columns.
+        width: u32,
+        /// The number of rows.
+        height: u32,
+        /// The longest side.
+        max: u32,
+    },
     /// It was stopped before it was done.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),

@@ -9,6 +9,7 @@
 //! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
 //!   allocation, directions, paths and corridors.
 //! - [`CostAStar`] finds one path after another.
+//! - [`Costmap`] is a robot's costmap, with the inflation of nav2.
 //!
 //! **The key decision: costs are integers here, too.** The sum of shares times weights is exact, its product
 //! with the length of a share is rounded once (module `moves`), and all else is integer sums. So results do
@@ -21,6 +22,7 @@
 //! of which nothing is compiled here but the words of queries and answers.
 
 mod astar;
+mod costmap;
 mod error;
 mod field;
 mod gaps;
@@ -34,6 +36,7 @@ mod scale;
 mod scan;
 
 pub use astar::CostAStar;
+pub use costmap::{Costmap, Inflation, Traversal};
 pub use error::{CostFieldError, CostsError};
 pub use field::{CostField, CostFieldQuery, DirectionCode};
 pub use graph::CostGraph;

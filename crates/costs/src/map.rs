@@ -34,6 +34,33 @@ pub struct CostMap {
 
 /// The width and the height of a cell where nothing is said: 1 × 1.
 const UNIT_CELL: (f64, f64) = (1.0, 1.0);
+/// The stage that an interrupted call names.
+const STAGE: &str = "reading the costs";
+
+/// The costs that were seen so far.
+#[derive(Default)]
+struct Bounds {
+    /// The least and the greatest.
+    bounds: Option<(f64, f64)>,
+    has_fractions: bool,
+}
+
+impl Bounds {
+    fn include(&mut self, (x, y): (u32, u32), cost: f64) -> Result<(), CostsError> {
+        if !(cost.is_finite() && cost > 0.0) {
+            return Err(CostsError::Cost { x, y, cost });
+        }
+        self.has_fractions |= cost.fract() != 0.0;
+        let (least, greatest) = self.bounds.unwrap_or((cost, cost));
+        self.bounds = Some((least.min(cost), greatest.max(cost)));
+        Ok(())
+    }
+
+    fn scale(&self, layout: Layout, cell_size: (f64, f64)) -> Result<Scale, CostsError> {
+        let vertices = (u64::from(layout.width()) + 1) * (u64::from(layout.height()) + 1);
+        Scale::new(vertices, self.bounds.unwrap_or((1.0, 1.0)), !self.has_fractions, cell_size)
+    }
+}
 
 impl CostMap {
     /// The longest side, in cells.
@@ -64,30 +91,62 @@ impl CostMap {
         interrupt: &Interrupt,
         cost: impl Fn(u32, u32) -> Option<f64>,
     ) -> Result<Self, CostsError> {
-        const STAGE: &str = "reading the costs";
-        let size = CostsError::Size { width: width.into(), height: height.into() };
-        let layout = Layout::new(width.into(), height.into()).ok_or(size)?;
-        let mut bounds: Option<(f64, f64)> = None;
-        let mut are_integers = true;
+        let layout = Self::layout_of(width, height)?;
+        let mut bounds = Bounds::default();
         for y in 0..height {
             interrupt.check(STAGE)?;
             for (x, cost) in (0..width).filter_map(|x| Some((x, cost(x, y)?))) {
-                if !(cost.is_finite() && cost > 0.0) {
-                    return Err(CostsError::Cost { x, y, cost });
-                }
-                are_integers &= cost.fract() == 0.0;
-                let (least, greatest) = bounds.unwrap_or((cost, cost));
-                bounds = Some((least.min(cost), greatest.max(cost)));
+                bounds.include((x, y), cost)?;
             }
         }
-        let vertices = (u64::from(width) + 1) * (u64::from(height) + 1);
-        let scale = Scale::new(vertices, bounds.unwrap_or((1.0, 1.0)), are_integers, cell_size)?;
-        let mut weights = vec![0; layout.len()];
-        for y in 0..height {
+        let scale = bounds.scale(layout, cell_size)?;
+        Self::filled(layout, scale, interrupt, |x, y| cost(x, y).and_then(|cost| scale.weight(cost)))
+    }
+
+    /// The surface of cells of a side, given by bytes, row by row, whose costs are those of a table.
+    pub(crate) fn of_bytes(
+        (width, height): (u32, u32),
+        bytes: &[u8],
+        costs: &[Option<f64>; 256],
+        side: f64,
+        interrupt: &Interrupt,
+    ) -> Result<Self, CostsError> {
+        let layout = Self::layout_of(width, height)?;
+        let (mut bounds, mut seen) = (Bounds::default(), [false; 256]);
+        for (y, row) in (0..height).zip(bytes.chunks_exact(width as usize)) {
             interrupt.check(STAGE)?;
-            for (x, cost) in (0..width).filter_map(|x| Some((x, cost(x, y)?))) {
-                // A function that answers otherwise the second time makes a blocked cell.
-                weights[layout.position(x as i32, y as i32)] = scale.weight(cost).unwrap_or(0);
+            for (x, &byte) in (0..width).zip(row) {
+                if !std::mem::replace(&mut seen[usize::from(byte)], true)
+                    && let Some(cost) = costs[usize::from(byte)]
+                {
+                    bounds.include((x, y), cost)?;
+                }
+            }
+        }
+        let scale = bounds.scale(layout, (side, side))?;
+        let weights = costs.map(|cost| cost.and_then(|cost| scale.weight(cost)));
+        let index = |x: u32, y: u32| y as usize * width as usize + x as usize;
+        Self::filled(layout, scale, interrupt, |x, y| weights[usize::from(bytes[index(x, y)])])
+    }
+
+    fn layout_of(width: u32, height: u32) -> Result<Layout, CostsError> {
+        let (width, height) = (width.into(), height.into());
+        Layout::new(width, height).ok_or(CostsError::Size { width, height })
+    }
+
+    /// The surface of these weights. A cell without one is blocked; so is one whose cost has become another
+    /// since the scale was made.
+    fn filled(
+        layout: Layout,
+        scale: Scale,
+        interrupt: &Interrupt,
+        weight: impl Fn(u32, u32) -> Option<u32>,
+    ) -> Result<Self, CostsError> {
+        let mut weights = vec![0; layout.len()];
+        for y in 0..layout.height() {
+            interrupt.check(STAGE)?;
+            for x in 0..layout.width() {
+                weights[layout.position(x as i32, y as i32)] = weight(x, y).unwrap_or(0);
             }
         }
         let id = identity(layout, &weights, &scale, interrupt)?;

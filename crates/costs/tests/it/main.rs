@@ -1,7 +1,9 @@
 //! The tests of the crate that see it from outside.
 
 mod common;
+mod costmaps;
 mod edits;
 mod fields;
 mod paths;
 mod refused;
+mod robots;
