@@ -4,8 +4,8 @@
 //! of the row. The answer is the lower envelope of all parabolas, found from left to right with a stack
 //! (Meijster, Roerdink & Hesselink 2000; Felzenszwalb & Huttenlocher 2012), in integers and linear time.
 //!
-//! * **Corner vertices**, and centers seen from centers, are points, and so are the sites: F_e(x) = (x − e)²
-//!   + g_e² for a column e whose nearest site is g_e rows away.
+//! * **Corner vertices** are points, and so are centers that are measured to centers; so are their sites:
+//!   F_e(x) = (x − e)² + g_e² for a column e whose nearest site is g_e rows away.
 //! * **Centers** measure to squares in half cells. The edges of columns are the sites, since the nearest
 //!   point of a blocked square in another column lies on an edge of that column: F_e(x) = (2x + 1 − 2e)² +
 //!   h_e, where h_e is that of the nearer one of the two columns beside edge e. Seen from a center, a blocked
