@@ -14,7 +14,8 @@ use crate::{graph::CostGraph, scan::Visit};
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 /// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm.
 ///
-/// The cost of its paths is [`CostGraph::path_cost`]; [`Path::cost`] is their length.
+/// The cost of its paths, [`Path::cost`], is that on the surface; their length is [`Path::length`]. Observers
+/// are told costs in units of the map ([`CostGraph::to_f64`]).
 ///
 /// Whether an end can be reached it finds out by searching.
 ///
@@ -33,8 +34,7 @@ use crate::{graph::CostGraph, scan::Visit};
 /// let answer = planner.solve(Ends::new((0, 0), (6, 0)))?;
 /// let path = answer.path().expect("all cells are free");
 /// assert_eq!(path.to_string(), "(0, 0) → (0, 2) → (1, 3) → (5, 3) → (6, 2) → (6, 0)");
-/// let cost = graph.path_cost(path).map(|cost| graph.to_f64(cost));
-/// assert!(cost.is_some_and(|cost| (cost - 8.0 - 8.0_f64.sqrt()).abs() < 1e-9));
+/// assert!((path.cost() - 8.0 - 8.0_f64.sqrt()).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -266,10 +266,11 @@ impl Planner for CostAStar {
             return None;
         }
         if self.starts.is_empty() {
-            return (self.goal.at == at).then(|| Path::new(vec![at]));
+            return (self.goal.at == at).then(|| Path::with_cost(vec![at], 0.0));
         }
         let mut state = self.graph.end(at)?;
         let mut node = self.search.nodes.get(id(state))?;
+        let cost = self.graph.to_f64(node.g);
         let (mut waypoints, mut at, mut last) = (vec![at], at, None);
         while node.g != Cost::ZERO {
             let by = node.arrived_by();
@@ -282,11 +283,11 @@ impl Planner for CostAStar {
             node = self.search.nodes.get(id(state))?;
         }
         waypoints.reverse();
-        Some(Path::new(waypoints))
+        Some(Path::with_cost(waypoints, cost))
     }
 
     fn guarantee(&self) -> Guarantee {
-        Guarantee::Optimal(self.graph.k())
+        Guarantee::Cheapest(self.graph.k())
     }
 
     fn identity(&self) -> Identity {

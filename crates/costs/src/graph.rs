@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, PlacementKind, Rules, Vertex};
+use mediant_grid::{DiagonalGap, Identity, PlacementKind, Rules, Vertex};
 use mediant_moves::{Cost, CostTable, FiniteK, Vector};
-use mediant_search::{End, Path, QueryError};
+use mediant_search::{End, Path, PathCosts, QueryError};
 
 use crate::{
     error::CostsError,
@@ -60,10 +60,26 @@ impl CostGraph {
         let moves = Moves::new(rules.placement(), k, map.scale()).map_err(|_| too_large)?;
         let least = CostTable::with_costs(k, |v| moves.least(v)).map_err(|_| too_large)?;
         let steps = Steps::new(map.layout());
-        let is_closed = rules == Rules::Corner(mediant_grid::DiagonalGap::Closed);
-        let gaps = if is_closed { Gaps::of(&map, &steps) } else { Gaps::default() };
+        let gaps = if is_closed(rules) { Gaps::of(&map, &steps) } else { Gaps::default() };
         let scanner = Scanner::new(moves, steps, gaps, rules);
         Ok(Self { map, k, scanner, least })
+    }
+
+    /// The search graph of another surface under the same rules and k: that after an edit. Where the surface
+    /// has kept its units, it shares all tables; only closed gaps are looked for anew.
+    ///
+    /// # Errors
+    /// None that this graph can have.
+    pub fn after(&self, map: Arc<CostMap>) -> Result<Self, CostsError> {
+        if map.scale() != self.map.scale() || map.layout() != self.map.layout() {
+            return Self::new(map, self.rules(), self.k);
+        }
+        let mut after = self.clone();
+        if is_closed(self.rules()) {
+            after.scanner.gaps = Gaps::of(&map, &after.scanner.steps);
+        }
+        after.map = map;
+        Ok(after)
     }
 
     /// The surface.
@@ -252,6 +268,25 @@ impl CostGraph {
     pub(crate) fn vertex(&self, state: usize) -> Vertex {
         let (x, y) = self.layout().cell(self.scanner.gaps.position(state));
         Vertex::new(x, y)
+    }
+}
+
+/// Whether closed gaps are in the way.
+fn is_closed(rules: Rules) -> bool {
+    rules == Rules::Corner(DiagonalGap::Closed)
+}
+
+impl PathCosts for CostGraph {
+    fn least(&self, v: Vector) -> Cost {
+        self.least_cost(v)
+    }
+
+    fn cost(&self, path: &Path) -> Cost {
+        self.path_cost(path).unwrap_or(Cost::MAX)
+    }
+
+    fn unit(&self) -> f64 {
+        self.map.unit()
     }
 }
 

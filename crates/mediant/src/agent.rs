@@ -8,7 +8,7 @@ use mediant_grid::{Clearance, Fit, Outside, Vertex};
 use mediant_search::{Answer, Ends, Limit, Limits, Path, Query};
 
 pub use self::kept::{Disc, Square};
-use crate::{choice::Choice, error::Error, map::Map, motion::Motion, space::Space};
+use crate::{choice::Choice, error::Error, map::Map, motion::Motion, setup_error::SetupError, space::Space};
 
 impl Map {
     /// The map of a disc, whose radius is in cells: it is free where the disc fits. On each path over this
@@ -111,7 +111,7 @@ impl Space {
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map, or a surplus that is negative
-    /// or not a number.
+    /// or not a number; [`Error::Setup`] where cells have costs.
     pub fn widest_path(
         &self,
         start: impl Into<Vertex>,
@@ -128,6 +128,7 @@ impl Space {
         limits: &Limits,
     ) -> Result<Option<WidestPath>, Error> {
         let Motion { k, rules, .. } = self.motion();
+        self.check_is_without_costs(SetupError::WIDEST_ON_COSTS)?;
         if surplus.is_nan() || surplus < 0.0 {
             return Err(mediant_search::QueryError::CostLimit.into());
         }

@@ -51,6 +51,8 @@ pub struct Capabilities {
     pub variants: &'static [Variant],
     /// Whether it finds the distances from one vertex to all others.
     pub distances: bool,
+    /// Whether it knows [costs of cells](crate::Map::costs).
+    pub costs: bool,
     /// The version of its saved index; `None` for an engine whose index is not saved.
     pub index: Option<u32>,
 }
@@ -111,6 +113,7 @@ const SEARCH: Capabilities = Capabilities {
     #[cfg(feature = "publications")]
     variants: &[],
     distances: false,
+    costs: false,
     index: None,
 };
 
@@ -144,6 +147,7 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         papers: "Hart, Nilsson & Raphael 1968; Rivera, Hernández & Baier 2017",
         #[cfg(feature = "publications")]
         overestimates: true,
+        costs: true,
         ..SEARCH
     },
     Capabilities {
@@ -153,6 +157,7 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         paper: "Dijkstra 1959",
         papers: "Dijkstra 1959",
         distances: true,
+        costs: true,
         ..SEARCH
     },
     Capabilities {

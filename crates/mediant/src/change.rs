@@ -1,13 +1,22 @@
 //! Edits of a map, as values.
 
-use std::sync::{Arc, OnceLock};
+#[cfg(feature = "costs")]
+mod costs;
+
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, OnceLock},
+};
 
 use mediant_grid::{Change as GridChange, Mismatch, Rectangle, Vertex};
 
-use crate::{error::Error, map::Map, space::Space};
+use crate::{error::Error, map::Map, space::Space, surface::Surface};
 
 /// An edit of a space: the space before, the space after, and the cells between. Indexes are
 /// [repaired](crate::Index::repair) by it: what was prepared of the cells that did not change stays.
+///
+/// In a space of [costs](Map::costs) a change blocks cells, or changes their costs
+/// ([`edit_costs`](Self::edit_costs)). A cell that is freed needs a cost.
 ///
 /// ```
 /// use mediant::{Engine, Map, Motion, Origin, Rectangle};
@@ -27,6 +36,10 @@ pub struct Change {
     /// Made when it is first asked for: after the last of several edits.
     after: OnceLock<Space>,
     change: GridChange,
+    /// The costs after the change, if cells have costs then.
+    surface: Option<Surface>,
+    /// Where cells or costs changed, if cells had costs before or have them after it.
+    with_costs: Vec<Rectangle>,
 }
 
 impl Change {
@@ -34,7 +47,8 @@ impl Change {
     #[must_use]
     pub fn new(space: &Space) -> Self {
         let change = GridChange::new(Arc::clone(space.map().grid()));
-        Self { before: space.clone(), after: space.clone().into(), change }
+        let surface = space.surface().cloned();
+        Self { before: space.clone(), after: space.clone().into(), change, surface, with_costs: Vec::new() }
     }
 
     /// The change from one space to another, whose cells are found by comparing the two maps; that of all
@@ -48,11 +62,19 @@ impl Change {
             let (belongs_to, other_belongs_to) = (before.identity(), after.identity());
             return Err(Mismatch { prepared, belongs_to, other, other_belongs_to }.into());
         }
-        Ok(Self { after: after.clone().into(), ..Self::to(before, after.map()) })
+        let change = Self {
+            after: after.clone().into(),
+            surface: after.surface().cloned(),
+            ..Self::to(before, after.map())
+        };
+        #[cfg(feature = "costs")]
+        let change = change.with_differences();
+        Ok(change)
     }
 
     /// The change from a space to that of another map with the same motion: its cells are found by comparing
-    /// the two maps, word by word, and the space after it follows them.
+    /// the two maps, word by word, and the space after it follows them. A map has no costs: nor has the space
+    /// after it.
     ///
     /// ```
     /// use mediant::{Change, Map, Motion};
@@ -72,20 +94,29 @@ impl Change {
 
     /// The change of a grid, from a space of the grid before it.
     pub(crate) fn of_grids(before: &Space, change: GridChange) -> Self {
-        Self { before: before.clone(), after: OnceLock::new(), change }
+        let after = OnceLock::new();
+        Self { before: before.clone(), after, change, surface: None, with_costs: Vec::new() }
     }
 
     /// The change of a grid, between the spaces of the grid before and after it.
     pub(crate) fn of_spaces([before, after]: [&Space; 2], change: GridChange) -> Self {
-        Self { before: before.clone(), after: after.clone().into(), change }
+        Self { after: after.clone().into(), ..Self::of_grids(before, change) }
     }
 
     /// This change with other cells in a rectangle: see [`Map::edit`](crate::Map::edit).
     ///
     /// # Errors
-    /// As for [`Map::edit`](crate::Map::edit).
-    pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+    /// As for [`Map::edit`](crate::Map::edit); [`Error::Freed`] for a blocked cell that is freed where cells
+    /// have costs.
+    pub fn edit(mut self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         self.before.map().check_edit(at)?;
+        if self.surface.is_some() {
+            let columns = at.x..at.x.saturating_add(at.width).min(self.before.map().width());
+            let rows = at.y..at.y.saturating_add(at.height).min(self.before.map().height());
+            let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+            let cells: Vec<_> = cells.map(|(x, y)| (x, y, blocked(x, y))).collect();
+            return self.block(&cells);
+        }
         self.change = self.change.edit(at, blocked);
         self.after.take();
         Ok(self)
@@ -94,14 +125,35 @@ impl Change {
     /// This change with other scattered cells: see [`Map::edit_cells`](crate::Map::edit_cells).
     ///
     /// # Errors
-    /// As for [`Map::edit_cells`](crate::Map::edit_cells).
+    /// As for [`Map::edit_cells`](crate::Map::edit_cells); [`Error::Freed`] as for [`edit`](Self::edit).
     pub fn edit_cells<C: Into<Vertex>>(
         mut self,
         cells: impl IntoIterator<Item = (C, bool)>,
     ) -> Result<Self, Error> {
         let cells = self.before.map().check_cells(cells)?;
+        if self.surface.is_some() {
+            return self.block(&cells);
+        }
         self.change = self.change.edit_cells(cells);
         self.after.take();
+        Ok(self)
+    }
+
+    /// This change with cells blocked where cells have costs.
+    fn block(self, cells: &[(u32, u32, bool)]) -> Result<Self, Error> {
+        let grid = self.change.after();
+        let last: BTreeMap<(u32, u32), bool> =
+            cells.iter().map(|&(x, y, blocked)| ((x, y), blocked)).collect();
+        let freed =
+            |&(&(x, y), &blocked): &(&(u32, u32), &bool)| !blocked && grid.is_blocked(x as i32, y as i32);
+        if let Some((&(x, y), _)) = last.iter().find(freed) {
+            return Err(Error::Freed { cell: Vertex::new(x as i32, y as i32) });
+        }
+        #[cfg(feature = "costs")]
+        return self.with_edits(
+            last.into_iter().filter(|&(_, blocked)| blocked).map(|((x, y), _)| (x, y, None)).collect(),
+        );
+        #[cfg(not(feature = "costs"))]
         Ok(self)
     }
 
@@ -114,13 +166,18 @@ impl Change {
     /// The space after the change.
     #[must_use]
     pub fn after(&self) -> &Space {
-        self.after.get_or_init(|| self.before.follow(&self.change))
+        self.after.get_or_init(|| self.before.follow(&self.change, self.surface.clone()))
     }
 
-    /// Rectangles outside of which the two maps are equal; empty if nothing was changed.
+    /// Rectangles outside of which the two maps, and costs, are equal; empty if nothing was changed.
     #[must_use]
     pub fn cells(&self) -> &[Rectangle] {
-        self.change.cells()
+        if self.has_costs() { &self.with_costs } else { self.change.cells() }
+    }
+
+    /// Whether cells had costs before the change, or have them after it.
+    pub(crate) fn has_costs(&self) -> bool {
+        self.before.has_costs() || self.surface.is_some()
     }
 
     /// The change of the bit-packed grid, for the typed crates.

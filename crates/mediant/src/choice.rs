@@ -114,11 +114,16 @@ impl Choice {
     }
 }
 
+impl Choice {
+    /// Where cells have costs.
+    pub(crate) const ON_COSTS: Self = Self { engine: Engine::AStar, why: "it knows the costs of cells" };
+}
+
 impl Space {
     /// The engine recommended for many paths, with the reason. It depends on the motion and on the size of
     /// the map alone. Whether subgoals pay on the map is found out when they are prepared; where they do not,
     /// nothing of them is kept, and another engine searches:
-    /// [`Index::searched_by`](crate::Index::searched_by).
+    /// [`Index::searched_by`](crate::Index::searched_by). Where cells have costs, it is A*.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};
@@ -130,10 +135,18 @@ impl Space {
     /// ```
     #[must_use]
     pub fn engine(&self) -> Choice {
-        Choice::for_many_paths(self.motion(), self.map())
+        match self.has_costs() {
+            true => Choice::ON_COSTS,
+            false => Choice::for_many_paths(self.motion(), self.map()),
+        }
     }
 
-    /// A shortest path, by an engine that prepares little; `None` if there is none. For more than a few
+    /// The engine that prepares least.
+    pub(crate) fn engine_for_one_path(&self) -> Choice {
+        if self.has_costs() { Choice::ON_COSTS } else { Choice::for_one_path(self.motion()) }
+    }
+
+    /// A shortest path, or a cheapest one where cells have costs, by an engine that prepares little; `None` if there is none. For more than a few
     /// paths make a [`planner`](Self::planner).
     ///
     /// # Errors
@@ -145,7 +158,7 @@ impl Space {
     /// Of the limits only the deadline and the flag count.
     pub(crate) fn path_of(&self, query: Ends, limits: &Limits) -> Result<Option<Path>, Error> {
         self.check_query(query)?;
-        let index = self.within(limits).prepare_for_one_path(Choice::for_one_path(self.motion()))?;
+        let index = self.within(limits).prepare_for_one_path(self.engine_for_one_path())?;
         whole(index.try_planner()?.find(within(query, limits))?)
     }
 }

@@ -1,5 +1,7 @@
 //! Stable names for the kinds of mistakes.
 
+#[cfg(feature = "costs")]
+use mediant_costs::CostsError;
 use mediant_formats::{IndexError, ReadError};
 use mediant_grid::{GridError, names};
 use mediant_hierarchy::HierarchyError;
@@ -83,6 +85,9 @@ pub enum ErrorCode {
     BrokenPath,
     /// A map with a character that is neither free nor blocked, or with characters that cannot be either.
     MapTile,
+    /// A cost of a cell that is no positive number, costs that do not fit together or on the map, or a cell
+    /// without one.
+    Cost,
     /// A mistake of a kind that has no name yet.
     Other,
 }
@@ -123,6 +128,7 @@ names!(ErrorCode:
     Argument => "argument",
     BrokenPath => "broken-path",
     MapTile => "map-tile",
+    Cost => "cost",
     Other => "other",
 );
 
@@ -155,8 +161,23 @@ impl Error {
             Self::Stopped { .. } => ErrorCode::Stopped,
             Self::Call(error) => of_call(error),
             Self::Broken(_) => ErrorCode::BrokenPath,
+            #[cfg(feature = "costs")]
+            Self::Costs(error) => of_costs(error),
+            Self::Freed { .. } => ErrorCode::Cost,
             Self::Grid(_) => ErrorCode::Other,
         }
+    }
+}
+
+#[cfg(feature = "costs")]
+const fn of_costs(error: &CostsError) -> ErrorCode {
+    match error {
+        CostsError::Size { .. } => ErrorCode::MapSize,
+        CostsError::K { .. } => ErrorCode::Motion,
+        CostsError::CellSize { .. } => ErrorCode::Number,
+        CostsError::Outside { .. } => ErrorCode::EditOutside,
+        CostsError::Count { .. } | CostsError::Cost { .. } | CostsError::Range { .. } => ErrorCode::Cost,
+        _ => ErrorCode::Other,
     }
 }
 
@@ -177,12 +198,15 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::OtherEngine { .. }
         | SetupError::OtherPlanner { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
-        SetupError::Motion { .. } => ErrorCode::Motion,
+        SetupError::Motion { .. } | SetupError::CostsK { .. } => ErrorCode::Motion,
+        SetupError::WithoutCosts => ErrorCode::Cost,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,
-        SetupError::Without { .. } | SetupError::NotBuilt { .. } | SetupError::NoIndex { .. } => {
-            ErrorCode::EngineWithout
-        }
+        SetupError::Without { .. }
+        | SetupError::NotBuilt { .. }
+        | SetupError::NoIndex { .. }
+        | SetupError::Costs { .. }
+        | SetupError::WithCosts { .. } => ErrorCode::EngineWithout,
     }
 }
 
@@ -201,6 +225,7 @@ const fn of_query(error: &QueryError) -> ErrorCode {
         QueryError::NoEnd { .. } => ErrorCode::NoEnd,
         QueryError::Tolerance | QueryError::CostLimit => ErrorCode::Number,
         QueryError::NotBegun => ErrorCode::NotBegun,
+        QueryError::Smoothing => ErrorCode::EngineWithout,
         _ => ErrorCode::Other,
     }
 }

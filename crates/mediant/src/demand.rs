@@ -6,6 +6,7 @@
 //! [`Demand`] has met a [`Space`].
 
 use crate::{
+    call::Call,
     choice::Choice,
     configured::ConfiguredEngine,
     engine::Engine,
@@ -39,6 +40,9 @@ pub enum Demand {
 /// block-based JPS at k = 3 (their geometric mean is 2,700), and as 380 to 25,000 of Anya at any angle.
 const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
 
+/// For all distances.
+const DISTANCES: Choice = Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" };
+
 impl Space {
     /// The engine that we would take for what is asked, and why:
     /// - for one path [`Choice::for_next_path`], for up to 1,000 [`Choice::for_some_paths`], for more
@@ -48,7 +52,8 @@ impl Space {
     ///   one whose repair is quick, beyond that subgoals. These are reckoned as
     ///   [finished](crate::Index::finish) after every 40 edits; `docs/results/changes.md` has the figures;
     /// - for all distances Dijkstra's algorithm;
-    /// - for an index subgoals, or JPS+ where they are not for this motion.
+    /// - for an index subgoals, or JPS+ where they are not for this motion;
+    /// - for paths where cells have costs A*.
     ///
     /// ```
     /// use mediant::{Demand, Engine, K, Map, Motion};
@@ -66,9 +71,26 @@ impl Space {
     ///
     /// # Errors
     /// [`SetupError`] where no engine does that for the space's motion: an index between centers from k = 4
-    /// on, all distances at any angle (a [`field`](Self::field) has them).
+    /// on, or where cells have costs; all distances at any angle (a [`field`](Self::field) has them).
     pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
-        demand.choice(self.motion(), self.map())
+        if self.has_costs() { demand.choice_on_costs() } else { demand.choice(self.motion(), self.map()) }
+    }
+
+    /// The setup of a call in this space, whose motion is the space's, for what is asked; and why its engine
+    /// is this one, if the call leaves that open.
+    ///
+    /// # Errors
+    /// [`SetupError`] for an engine that does not take the motion, the options or the costs of cells.
+    pub fn setup(&self, call: &Call, demand: Demand) -> Result<(Setup, Option<Choice>), SetupError> {
+        if !self.has_costs() {
+            return call.setup(demand, (self.motion(), self.map()));
+        }
+        let choice = if call.engine().is_some() { None } else { Some(demand.choice_on_costs()?) };
+        let engine = choice.map(|choice| choice.engine).or(call.engine()).unwrap_or_default();
+        let engine = call.configured(engine)?;
+        let setup = Setup { smoothing: call.smoothing(), ..Setup::new(engine, self.motion()) };
+        self.check_setup(&setup)?;
+        Ok((setup, choice))
     }
 }
 
@@ -83,7 +105,7 @@ impl Demand {
             Self::Changing { paths } => Ok(Choice::for_changing_map(motion, map, paths)),
             Self::Distances => {
                 takes(Engine::Dijkstra)?;
-                Ok(Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" })
+                Ok(DISTANCES)
             }
             Self::Index if takes(Engine::Subgoal).is_ok() => {
                 let why = "of the engines with an index it has the fastest queries";
@@ -94,6 +116,15 @@ impl Demand {
                 why: "it has an index, and subgoals are not for these rules",
             }),
             Self::Index => Err(SetupError::NoIndex { motion }),
+        }
+    }
+
+    /// The same where cells have costs.
+    fn choice_on_costs(self) -> Result<Choice, SetupError> {
+        match self {
+            Self::Paths(_) | Self::Changing { .. } => Ok(Choice::ON_COSTS),
+            Self::Distances => Ok(DISTANCES),
+            Self::Index => Err(SetupError::INDEX_ON_COSTS),
         }
     }
 

@@ -5,6 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+#[cfg(feature = "costs")]
+use mediant_costs::CostsError;
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
 use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
 use mediant_hierarchy::HierarchyError;
@@ -79,6 +81,18 @@ pub enum Error {
         cell: Vertex,
         /// The width and the height of the map.
         size: (u32, u32),
+    },
+    /// Costs of cells that cannot be.
+    #[cfg(feature = "costs")]
+    #[error(transparent)]
+    Costs(CostsError),
+    /// A cell that is freed in a space with costs, without a cost.
+    #[error(
+        "cell {cell} is freed, and has no cost: give it one, as in `space.edit_costs([(cell, Some(1.0))])`"
+    )]
+    Freed {
+        /// The cell.
+        cell: Vertex,
     },
     /// An agent without a size.
     #[error(transparent)]
@@ -244,6 +258,16 @@ macro_rules! from_errors {
 }
 
 from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, IndexFile: IndexError);
+
+#[cfg(feature = "costs")]
+impl From<CostsError> for Error {
+    fn from(error: CostsError) -> Self {
+        match error {
+            CostsError::Interrupted(interrupted) => interrupted.into(),
+            error => Self::Costs(error),
+        }
+    }
+}
 
 impl From<RowsError> for Error {
     fn from(error: RowsError) -> Self {

@@ -1,6 +1,8 @@
 //! The errors inside an [`Error`](crate::Error), each with its fields; and what the library does not do, for
 //! errors of programs that stand on it.
 
+#[cfg(feature = "costs")]
+pub use mediant_costs::CostsError;
 pub use mediant_formats::{
     IndexError, MapError, RasterError, ReadError, RosError, TileError, TilesError, WriteError,
 };

@@ -7,7 +7,7 @@ use mediant_search::{Answer, Guarantee, Limits, Query};
 
 use crate::{
     change::Change, choice::Choice, engine::Engine, error::Error, index::Index, map::Map, planner::Planner,
-    space::Space,
+    setup_error::SetupError, space::Space,
 };
 
 /// Cells that count as blocked or as free for one query, whatever the map says: other agents in the way, and
@@ -149,12 +149,13 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`find`](Self::find), [`Error::EditCell`] for a cell outside the map, and [`Error::Stopped`] if
-    /// the query's limits stop what is prepared.
+    /// the query's limits stop what is prepared; [`Error::Setup`] where cells have costs.
     pub fn find_except(
         &mut self,
         query: impl Into<Query>,
         exceptions: &Exceptions,
     ) -> Result<ExceptedAnswer, Error> {
+        self.index().space().check_is_without_costs(SetupError::EXCEPTIONS_ON_COSTS)?;
         let query = query.into();
         let Some(change) = exceptions.change(self.index().space(), &query)? else {
             let answer = self.find(query)?;

@@ -2,6 +2,8 @@
 
 use std::{fmt, sync::Arc};
 
+#[cfg(feature = "costs")]
+use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph};
 use mediant_grid::{
     Centers, Change as GridChange, Corners, FreeSpace, GridGraph, Identity, Interrupt, MapId, Mismatch,
     Vertex,
@@ -11,6 +13,8 @@ use mediant_search::{
     self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
 };
 
+#[cfg(feature = "costs")]
+use crate::memory_check;
 use crate::{
     change::Change,
     error::Error,
@@ -22,7 +26,8 @@ use crate::{
 
 /// The distance of every vertex to the nearest of one or many sources, with the paths and directions out of
 /// it: one goal for many agents, or what lies within reach. Over N(k) for every finite k, and exactly at any
-/// angle.
+/// angle. Where cells have [costs](crate::Map::costs) it has costs in place of distances: a cost distance, or
+/// accumulated cost surface.
 ///
 /// ```
 /// use mediant::{K, Map, Motion};
@@ -42,6 +47,8 @@ enum Inner {
     Centers(search::Field<Arc<GridGraph<Centers>>>),
     Corners(search::Field<Arc<GridGraph<Corners>>>),
     AnyAngle(AnyAngleField<Arc<FreeSpace<Corners>>>),
+    #[cfg(feature = "costs")]
+    Costs(CostField),
 }
 
 /// Makes one field after another in a space, on scratch memory of its own: make one for each thread.
@@ -53,6 +60,8 @@ enum Makers {
     Centers(search::Fields<Arc<GridGraph<Centers>>, Centers>),
     Corners(search::Fields<Arc<GridGraph<Corners>>, Corners>),
     AnyAngle(AnyAngleFields<Arc<FreeSpace<Corners>>>),
+    #[cfg(feature = "costs")]
+    Costs(Arc<CostGraph>),
 }
 
 impl Space {
@@ -64,8 +73,8 @@ impl Space {
         self.fields()?.field(sources)
     }
 
-    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells: what
-    /// an agent can reach, if it goes no further. A vertex at exactly that distance is within it: all limits
+    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells (or costs):
+    /// what an agent can reach, if it goes no further. A vertex at exactly that distance is within it: all limits
     /// leave room for the rounding of lengths, one part in 2³¹.
     ///
     /// # Errors
@@ -96,6 +105,10 @@ impl Space {
     }
 
     fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
+        #[cfg(feature = "costs")]
+        if let Some(surface) = self.surface() {
+            return Ok(Fields { inner: Makers::Costs(Arc::clone(&surface.graph)) });
+        }
         let inner = match (self.placed(), self.motion().k.finite()) {
             (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), Some(k)) => Makers::Corners(fields_over(layers, k, interrupt)?),
@@ -150,8 +163,31 @@ impl Fields {
             Makers::Centers(fields) => fields.field_interruptible(query, interrupt).map(Inner::Centers),
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
+            #[cfg(feature = "costs")]
+            Makers::Costs(graph) => return on_costs(graph, query, interrupt),
         };
         Ok(Field { inner: inner.map_err(told)? })
+    }
+}
+
+/// A field of costs. With one source that is the nearest to all; of several it is written down which is.
+#[cfg(feature = "costs")]
+fn on_costs(graph: &Arc<CostGraph>, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
+    let has_several = query.sources.len() > 1;
+    let query = CostFieldQuery::new(query.sources).within(query.limit);
+    let query = if has_several { query.with_allocation() } else { query };
+    memory_check::check("the field", CostField::bytes(graph, has_several) as u64)?;
+    let field = CostField::new(Arc::clone(graph), query, interrupt).map_err(told_on_costs)?;
+    Ok(Field { inner: Inner::Costs(field) })
+}
+
+#[cfg(feature = "costs")]
+fn told_on_costs(error: CostFieldError) -> Error {
+    match error {
+        CostFieldError::Query(error) => error.into(),
+        CostFieldError::Mismatch(mismatch) => mismatch.into(),
+        CostFieldError::Interrupted(interrupted) => interrupted.into(),
+        _ => QueryError::CostLimit.into(),
     }
 }
 
@@ -189,6 +225,8 @@ macro_rules! of_each {
             Inner::Centers($field) => $value,
             Inner::Corners($field) => $value,
             Inner::AnyAngle($field) => $value,
+            #[cfg(feature = "costs")]
+            Inner::Costs($field) => $value,
         }
     };
 }
@@ -196,8 +234,8 @@ macro_rules! of_each {
 impl Field {
     /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
     /// last bit. Over N(k) the work follows the vertices whose distance changes. Where these are many it is
-    /// made anew, and so it is at any angle, unless no path in it comes near the change. This field stays as
-    /// it is; the next repair takes its memory, if it is given up by then.
+    /// made anew, and so it is at any angle, unless no path in it comes near the change; and where cells have
+    /// costs. This field stays as it is; the next repair takes its memory, if it is given up by then.
     ///
     /// ```
     /// use mediant::{Map, Motion};
@@ -225,9 +263,18 @@ impl Field {
         if belongs_to != before {
             return Err(mismatch.into());
         }
+        if change.before().has_costs() != after.has_costs() {
+            let other = "the space after the change";
+            return Err(Mismatch { other, other_belongs_to: after.identity(), ..mismatch }.into());
+        }
         let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
         let cells = is_of_the_same_size.then(|| change.of_grid());
         let inner = match (&self.inner, after.placed(), after.motion().k.finite()) {
+            #[cfg(feature = "costs")]
+            (Inner::Costs(field), ..) => {
+                let CostFieldQuery { sources, limit, .. } = field.query();
+                return after.field_of(sources, limit, interrupt);
+            }
             (Inner::Centers(field), Placed::Centers(layers), Some(k)) => {
                 Inner::Centers(repaired_over(field, layers, (k, cells), interrupt)?)
             }
@@ -249,7 +296,7 @@ impl Field {
 
     /// The distance of a vertex to the nearest source, in cells; `None` if no path leads to one, if it is
     /// beyond the limit, or if the vertex is blocked or outside the map. Over N(k) it is the number that
-    /// [`Planner::distance`](crate::Planner::distance) finds.
+    /// [`Planner::distance`](crate::Planner::distance) finds. Where cells have costs it is the least cost.
     #[must_use]
     pub fn get(&self, at: impl Into<Vertex>) -> Option<f64> {
         let at = at.into();
@@ -257,6 +304,8 @@ impl Field {
             Inner::Centers(field) => field.get(at).map(|cost| cost.to_f64()),
             Inner::Corners(field) => field.get(at).map(|cost| cost.to_f64()),
             Inner::AnyAngle(field) => field.get(at),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => field.get(at),
         }
     }
 
@@ -267,6 +316,8 @@ impl Field {
             Inner::Centers(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
             Inner::Corners(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
             Inner::AnyAngle(field) => Box::new(field.iter()),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => Box::new(field.iter()),
         }
     }
 
@@ -278,7 +329,33 @@ impl Field {
             Inner::Centers(field) => field.lengths().collect(),
             Inner::Corners(field) => field.lengths().collect(),
             Inner::AnyAngle(field) => field.lengths().to_vec(),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => field.rows().collect(),
         }
+    }
+
+    /// For each vertex, row by row, the sum of its distances in two fields: the length, or the cost, of the
+    /// best path from a source of one to a source of the other that leads over it. The vertices with little
+    /// more than the least are a *corridor*. Infinite where a vertex is not in both fields.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let space = Map::new(5, 3)?.costs([1, 1, 1, 1, 1, 4, 4, 4, 4, 4, 9, 9, 9, 9, 9])?.space(Motion::centers(2))?;
+    /// let corridor = space.field([(0, 0)])?.corridor(&space.field([(4, 0)])?)?;
+    /// assert_eq!([corridor[2], corridor[7]], [4.0, 4.0 + 2.0 * 2.5]);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for fields of different spaces.
+    pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, Error> {
+        self.identity().check("the field", ("the other field", other.identity()))?;
+        #[cfg(feature = "costs")]
+        if let (Inner::Costs(field), Inner::Costs(other)) = (&self.inner, &other.inner) {
+            return field.corridor(other).map_err(told_on_costs);
+        }
+        Ok(self.lengths().into_iter().zip(other.lengths()).map(|(one, other)| one + other).collect())
     }
 
     /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle
@@ -308,11 +385,21 @@ impl Field {
         of_each!(&self.inner, field => field.path_from(at))
     }
 
-    /// The source to which that path leads.
+    /// The source to which that path leads. Where cells have costs it is, of several that are equally near, the
+    /// first one in the list; the path may lead to another one.
     #[must_use]
     pub fn nearest_source(&self, at: impl Into<Vertex>) -> Option<Vertex> {
         let at = at.into();
-        of_each!(&self.inner, field => field.nearest_source(at))
+        match &self.inner {
+            Inner::Centers(field) => field.nearest_source(at),
+            Inner::Corners(field) => field.nearest_source(at),
+            Inner::AnyAngle(field) => field.nearest_source(at),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => match field.sources() {
+                &[only] => field.cost(at).map(|_| only),
+                sources => sources.get(field.allocation(at)? as usize).copied(),
+            },
+        }
     }
 
     /// The number of vertices in a row.
@@ -346,6 +433,8 @@ impl fmt::Debug for Fields {
             Makers::Centers(fields) => fields.identity(),
             Makers::Corners(fields) => fields.identity(),
             Makers::AnyAngle(fields) => fields.identity(),
+            #[cfg(feature = "costs")]
+            Makers::Costs(graph) => graph.identity(),
         };
         f.debug_struct("Fields").field("identity", &identity).finish_non_exhaustive()
     }

@@ -1,4 +1,4 @@
-//! Pathfinding on uniform-cost grids over the 2^k neighborhoods: every engine of Mediant behind one door.
+//! Pathfinding on grids over the 2^k neighborhoods: every engine of Mediant behind one door.
 //!
 //! This page leads from a first path to an index that many threads share. The [cookbook] has whole programs
 //! for common jobs.
@@ -128,6 +128,21 @@
 //! path is [checked](Change::check) against a change, kept while it is a shortest one ([`Planner::replan`]),
 //! or [mended](Planner::mend) where it broke.
 //!
+//! # Costs of cells
+//!
+//! [`Map::costs`] gives each cell a cost a unit of length: terrain, friction, the distance to walls. A space of
+//! [`Costs`] answers the same queries, and has the same fields, by A* and Dijkstra's algorithm, with exact
+//! costs.
+//!
+//! ```
+//! use mediant::{Map, Motion};
+//!
+//! let costs = Map::new(9, 9)?.costs((0..81).map(|cell| if cell % 9 == 4 && cell > 8 { 20 } else { 1 }))?;
+//! let path = costs.space(Motion::centers(4))?.path((0, 8), (8, 8))?.expect("there is a way");
+//! println!("costs {:.2}, {:.2} cells long: {path}", path.cost(), path.length());
+//! # Ok::<(), mediant::Error>(())
+//! ```
+//!
 //! # Errors
 //!
 //! Nothing panics on bad input. Every error has a text that says what to do, and a stable
@@ -156,6 +171,7 @@
 //! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
 //! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
 //! | lead many agents to one goal | [`Field`] |
+//! | find cheapest paths over cells with costs, cost distance, corridors | [`Map::costs`], [`Field::corridor`] |
 //! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Square`], [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`], [`Change::check`] |
@@ -168,6 +184,7 @@
 //! - `all-engines`, on by default: without it there are A*, Dijkstra, canonical A*, JPS, block-based JPS and
 //!   Anya.
 //! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
+//! - `costs`, on by default: costs of cells, [`Map::costs`].
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `publications`: options that only reproduce publications.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
@@ -189,6 +206,8 @@ mod choice;
 mod code;
 mod configured;
 pub mod cookbook;
+#[cfg(feature = "costs")]
+mod costs;
 mod demand;
 mod engine;
 mod engine_name;
@@ -228,6 +247,7 @@ mod setup_error;
 mod shared_rules;
 mod space;
 mod suite;
+mod surface;
 mod table;
 mod text;
 #[cfg(feature = "trace")]
@@ -238,6 +258,8 @@ pub use agent::{Disc, Square};
 pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
+#[cfg(feature = "costs")]
+pub use costs::Costs;
 pub use demand::Demand;
 pub use engine::Engine;
 pub use error::Error;

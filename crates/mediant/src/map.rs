@@ -256,15 +256,15 @@ impl Map {
     }
 
     /// Cells with their columns and rows, which are on the map.
-    pub(crate) fn check_cells<C: Into<Vertex>>(
+    pub(crate) fn check_cells<C: Into<Vertex>, T>(
         &self,
-        cells: impl IntoIterator<Item = (C, bool)>,
-    ) -> Result<Vec<(u32, u32, bool)>, Error> {
+        cells: impl IntoIterator<Item = (C, T)>,
+    ) -> Result<Vec<(u32, u32, T)>, Error> {
         let mut known = Vec::new();
-        for (cell, blocked) in cells {
+        for (cell, value) in cells {
             let Vertex { x, y } = cell.into();
             match (u32::try_from(x), u32::try_from(y)) {
-                (Ok(x), Ok(y)) if x < self.width() && y < self.height() => known.push((x, y, blocked)),
+                (Ok(x), Ok(y)) if x < self.width() && y < self.height() => known.push((x, y, value)),
                 _ => return Err(Error::EditCell { cell: Vertex { x, y }, size: self.id().size() }),
             }
         }

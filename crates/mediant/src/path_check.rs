@@ -61,9 +61,12 @@ impl Change {
 
     /// The length below which no path from the path's start to its goal is that passes cells which the change
     /// has freed; infinite if it has freed none: see [`Path::least_by_freed`]. A shortest path that holds and
-    /// is no longer than this is a shortest one still.
+    /// is no longer than this is a shortest one still. Where cells have costs it is 0, which says nothing.
     #[must_use]
     pub fn least_by_freed(&self, path: &Path) -> f64 {
+        if self.has_costs() {
+            return 0.0;
+        }
         match self.after().placed() {
             Placed::Centers(_) => path.least_by_freed::<Centers>(self.of_grid()),
             Placed::Corners(_) => path.least_by_freed::<Corners>(self.of_grid()),

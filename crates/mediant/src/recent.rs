@@ -17,14 +17,12 @@ use mediant_search::Limits;
 use crate::{
     call::{Call, CallError},
     change::Change,
-    choice::Choice,
     demand::Demand,
     error::Error,
     map::Map,
     motion::Motion,
     planners::Planners,
     setup::Setup,
-    setup_error::SetupError,
     space::Space,
 };
 
@@ -149,7 +147,7 @@ impl Map {
         let before = self.recent().before().clone();
         let known = before.and_then(|before| Some((before.recent.spaces.get(&motion)?, before.change)));
         let space = match known {
-            Some((known, change)) => known.follow(&change),
+            Some((known, change)) => known.follow(&change, None),
             None => self.within(limits).space(motion)?,
         };
         self.recent().spaces.put(motion, &space);
@@ -188,16 +186,5 @@ impl Map {
         let planners = Arc::new(planners);
         self.recent().planners.put(*setup, &planners);
         Ok(planners)
-    }
-}
-
-impl Space {
-    /// The setup of a call in this space, whose motion is the space's, for what is asked; and why its engine
-    /// is this one, if the call leaves that open.
-    ///
-    /// # Errors
-    /// [`SetupError`] for an engine that does not take the motion or the options.
-    pub fn setup(&self, call: &Call, demand: Demand) -> Result<(Setup, Option<Choice>), SetupError> {
-        call.setup(demand, (self.motion(), self.map()))
     }
 }

@@ -32,6 +32,9 @@ impl Planner {
     ///    kept without a search. Was it a shortest path before, it is one now.
     /// 3. Otherwise a new one is searched, and taken only if it is shorter, by more than 2⁻³⁰ of the length.
     ///
+    /// Where cells have costs, the second rule is left out, and what counts is the cost in the space after the
+    /// change.
+    ///
     /// ```
     /// use mediant::{Engine, Map, Motion, Replanned};
     ///
@@ -64,9 +67,14 @@ impl Planner {
         if holds && path.cost() <= change.least_by_freed(path) {
             return Ok(Replanned::Kept);
         }
+        // Where cells have costs, the change may be one of the path's own.
+        let cost = match self.index().space().has_costs() {
+            true => self.index().space().cost(path).unwrap_or(f64::INFINITY),
+            false => path.cost(),
+        };
         let new = self.path(start, goal)?;
         Ok(match new {
-            Some(new) if !holds || new.cost() < path.cost() * (1.0 - GAIN) => Replanned::Replaced(new),
+            Some(new) if !holds || new.cost() < cost * (1.0 - GAIN) => Replanned::Replaced(new),
             None if !holds => Replanned::Unreachable,
             _ => Replanned::Kept,
         })
@@ -92,11 +100,21 @@ impl Planner {
     /// # Errors
     /// As for [`find`](Self::find) from the start to the goal. A path without waypoints is unreachable.
     pub fn mend(&mut self, path: &Path) -> Result<Answer, QueryError> {
-        let Err(broken) = self.index().space().check(path) else { return Ok(Answer::Found(path.clone())) };
+        let held = self.index().space().check(path);
         let (Some(&start), Some(&goal)) = (path.waypoints().first(), path.waypoints().last()) else {
             return Ok(Answer::Unreachable);
         };
+        let Err(broken) = held else {
+            let path = self.index().space().measured(path.clone());
+            // Where cells have costs, a path at any angle has none.
+            return if path.cost().is_finite() {
+                Ok(Answer::Found(path))
+            } else {
+                self.find(Ends::new(start, goal))
+            };
+        };
         let kept = Path::new(path.waypoints().iter().take(broken.holds_up_to()).copied().collect());
+        let kept = self.index().space().measured(kept);
         if let Some(&from) = kept.waypoints().last().filter(|&&from| from != start) {
             let rest = self.find(Ends::new(from, goal))?;
             let whole = rest.path().and_then(|rest| kept.joined(rest).ok());

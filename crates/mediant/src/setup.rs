@@ -114,7 +114,8 @@ impl Setup {
         self.engine.kind().index_version()
     }
 
-    /// The guarantee of the planner's paths.
+    /// The guarantee of the planner's paths where no cell has a cost of its own;
+    /// [`Planner::guarantee`](crate::Planner::guarantee) is right there, too.
     #[must_use]
     pub fn guarantee(&self) -> Guarantee {
         let unsmoothed = match (self.capabilities().guarantee, self.k()) {
@@ -134,7 +135,7 @@ impl Setup {
     #[must_use]
     pub fn optimal_over(&self) -> Option<K> {
         match self.guarantee() {
-            Guarantee::Optimal(k) => Some(K::Finite(k)),
+            Guarantee::Optimal(k) | Guarantee::Cheapest(k) => Some(K::Finite(k)),
             Guarantee::OptimalAnyAngle => Some(K::Any),
             Guarantee::AtMost(_) | Guarantee::Suboptimal => None,
         }

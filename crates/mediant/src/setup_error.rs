@@ -131,6 +131,36 @@ pub enum SetupError {
         /// The motion.
         motion: Motion,
     },
+    /// An engine that knows no costs of cells, in a space that has them.
+    #[error("{engine} knows no costs of cells: on costs choose {others}")]
+    Costs {
+        /// The engine.
+        engine: Engine,
+        /// The engines that know costs.
+        others: String,
+    },
+    /// A k over which no engine searches on costs of cells.
+    #[error(
+        "on costs of cells no engine searches k = {k}: choose a k from 2 to {max} (4 to {} neighbors)",
+        2_u64.saturating_pow(*max)
+    )]
+    CostsK {
+        /// The k.
+        k: K,
+        /// The largest k.
+        max: u32,
+    },
+    /// Something that there is not on costs of cells.
+    #[error("on costs of cells there is no {what}: {instead}")]
+    WithCosts {
+        /// The missing thing.
+        what: &'static str,
+        /// The way out.
+        instead: &'static str,
+    },
+    /// An edit of costs in a space whose cells have none.
+    #[error("the cells of this space have no costs: make a space of costs by `Map::costs`")]
+    WithoutCosts,
     /// A saved index or all distances, for an engine that has none.
     #[error("{engine} has no {what}: choose {others}")]
     Without {
@@ -144,6 +174,25 @@ pub enum SetupError {
 }
 
 impl SetupError {
+    pub(crate) const SMOOTHING_ON_COSTS: Self =
+        Self::WithCosts { what: "smoothing", instead: "leave it out" };
+    #[cfg(feature = "costs")]
+    pub(crate) const HEURISTIC_ON_COSTS: Self =
+        Self::WithCosts { what: "heuristic but hk and zero", instead: "leave it out" };
+    pub(crate) const EXCEPTIONS_ON_COSTS: Self = Self::WithCosts {
+        what: "query with exceptions",
+        instead: "edit the costs, and let a planner follow",
+    };
+    pub(crate) const WIDEST_ON_COSTS: Self =
+        Self::WithCosts { what: "widest path", instead: "raise the costs of cells near walls" };
+    pub(crate) const INDEX_ON_COSTS: Self =
+        Self::WithCosts { what: "saved index", instead: "prepare it, which takes next to nothing" };
+
+    /// The error for an engine that knows no costs.
+    pub(crate) fn on_costs(engine: Engine) -> Self {
+        Self::Costs { engine, others: Engine::names_where(|kind| kind.capabilities().costs) }
+    }
+
     /// The error for an engine whose index is not saved.
     pub(crate) fn without_index(engine: Engine) -> Self {
         let others = Engine::names_where(|kind| kind.capabilities().index.is_some());

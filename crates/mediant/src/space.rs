@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, OnceLock};
 
+#[cfg(feature = "costs")]
+use mediant_costs::CostGraph;
 use mediant_grid::{
     Centers, Change, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement,
     PlacementKind, Rules, Vertex,
@@ -10,9 +12,11 @@ use mediant_moves::FiniteK;
 use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
+#[cfg(feature = "costs")]
+use crate::costs::Costs;
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, never::NEVER,
-    setup::Setup, setup_error::SetupError, shared_rules::Shared,
+    setup::Setup, setup_error::SetupError, shared_rules::Shared, surface::Surface,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -40,6 +44,8 @@ struct Inner {
     motion: Motion,
     metric: Metric,
     placed: Placed,
+    /// Where cells have costs.
+    surface: Option<Surface>,
 }
 
 /// The free space and the grid graph, by placement.
@@ -145,34 +151,46 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
-        Ok(Self::searched(map, motion, Metric::new(motion.k)?, interrupt)?)
+        Self::searched((map, None), motion, interrupt)
     }
 
-    /// The space after a change of its map.
-    pub(crate) fn follow(&self, change: &Change) -> Self {
+    /// Costs with rules of motion and a k.
+    #[cfg(feature = "costs")]
+    pub(crate) fn of_costs(costs: &Costs, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
+        const MAX: u32 = CostGraph::MAX_K;
+        motion.check_k()?;
+        let k = motion.k.finite().filter(|k| k.get() <= MAX);
+        let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
+        let graph = Arc::new(CostGraph::new(Arc::clone(costs.surface()), motion.rules, k)?);
+        let surface = Surface { costs: costs.clone(), graph };
+        Self::searched((costs.map(), Some(surface)), motion, interrupt)
+    }
+
+    /// The space after a change of its map, with the costs after it if its cells have costs.
+    pub(crate) fn follow(&self, change: &Change, surface: Option<Surface>) -> Self {
         let (motion, metric) = (self.motion(), self.metric());
         let placed = match self.placed() {
             Placed::Centers(layers) => Placed::Centers(layers.follow(change)),
             Placed::Corners(layers) => Placed::Corners(layers.follow(change)),
         };
         let map = Arc::clone(change.after()).into();
-        Self { inner: Arc::new(Inner { map, motion, metric, placed }) }
+        Self { inner: Arc::new(Inner { map, motion, metric, placed, surface }) }
     }
 
-    /// A map with a motion that some engine searches, and the metric of its k.
+    /// A map with a motion that some engine searches.
     fn searched(
-        map: &Map,
+        (map, surface): (&Map, Option<Surface>),
         motion: Motion,
-        metric: Metric,
         interrupt: &Interrupt,
-    ) -> Result<Self, Interrupted> {
+    ) -> Result<Self, Error> {
+        let metric = Metric::new(motion.k)?;
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
             Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
         };
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
-        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed }) })
+        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed, surface }) })
     }
 
     /// The map.
@@ -181,15 +199,25 @@ impl Space {
         &self.inner.map
     }
 
+    /// The costs of its cells, if it is a space [of costs](Map::costs).
+    #[cfg(feature = "costs")]
+    #[must_use]
+    pub fn costs(&self) -> Option<&Costs> {
+        self.surface().map(|surface| &surface.costs)
+    }
+
     /// The rules of motion and the k.
     #[must_use]
     pub fn motion(&self) -> Motion {
         self.inner.motion
     }
 
-    /// The identity: its map, rules and k.
+    /// The identity: its map, or the costs of its cells, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
+        if let Some(surface) = self.surface() {
+            return surface.identity();
+        }
         let Motion { k, rules, .. } = self.motion();
         Identity { map: Some(self.map().id()), rules, k: Some(k) }
     }
@@ -229,7 +257,7 @@ impl Space {
         }
     }
 
-    /// The vertices that can be reached from `start`, row by row, with their distances: in cells by
+    /// The vertices that can be reached from `start`, row by row, with their distances: in cells (or costs) by
     /// [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`]. For more than one source, a limit, paths and
     /// directions see [`field`](Self::field).
     ///
@@ -254,7 +282,7 @@ impl Space {
         interrupt: &Interrupt,
     ) -> Result<Vec<(Vertex, f64)>, Error> {
         let motion = self.motion();
-        Setup::new(engine, motion).check()?;
+        self.check_setup(&Setup::new(engine, motion))?;
         if !engine.capabilities().distances {
             return Err(SetupError::without_distances(engine).into());
         }
@@ -277,8 +305,9 @@ impl Space {
     /// [`Error::Setup`] for an engine that does not take the space's k or rules.
     pub fn make_ready(&self, engine: impl Into<ConfiguredEngine>) -> Result<(), Error> {
         let (engine, motion) = (engine.into(), self.motion());
-        Setup::new(engine, motion).check()?;
-        if let Some(k) = motion.k.finite().filter(|_| engine.kind().capabilities().grid_graph) {
+        self.check_setup(&Setup::new(engine, motion))?;
+        let searches = engine.kind().capabilities().grid_graph && !self.has_costs();
+        if let Some(k) = motion.k.finite().filter(|_| searches) {
             match self.placed() {
                 Placed::Centers(layers) => _ = layers.graph(k)?,
                 Placed::Corners(layers) => _ = layers.graph(k)?,
@@ -287,15 +316,20 @@ impl Space {
         Ok(())
     }
 
-    /// The memory that it uses beyond the map, in bytes: that of the connected components, and of the search
-    /// graph once an engine has searched it.
+    /// The memory that it uses beyond the map, in bytes: that of the connected components, of the search
+    /// graph once an engine has searched it, and of costs.
     #[must_use]
     pub fn memory_bytes(&self) -> u64 {
         let bytes = match self.placed() {
             Placed::Centers(layers) => layers.memory_bytes(),
             Placed::Corners(layers) => layers.memory_bytes(),
         };
-        bytes as u64
+        (bytes + self.surface().map_or(0, |surface| surface.memory_bytes())) as u64
+    }
+
+    /// The costs of its cells with their search graph.
+    pub(crate) fn surface(&self) -> Option<&Surface> {
+        self.inner.surface.as_ref()
     }
 
     /// The length of a displacement where no obstacle is in the way: that of its k.

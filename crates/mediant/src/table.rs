@@ -136,7 +136,7 @@ impl Stop<'_> {
                 Err(Error::Stopped { by: stopped.by, during: DURING })
             }
             answer => {
-                let guarantee = planner.index().setup().guarantee();
+                let guarantee = planner.guarantee();
                 Ok(answer.path().map_or(f64::INFINITY, |path| guarantee.length(path)))
             }
         }

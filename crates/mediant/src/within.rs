@@ -7,6 +7,8 @@ use mediant_moves::K;
 use mediant_search::{Ends, Limits, Path};
 use mediant_subgoal::Progress;
 
+#[cfg(feature = "costs")]
+use crate::costs::Costs;
 use crate::{
     agent::WidestPath, change::Change, configured::ConfiguredEngine, engine::Engine, engines::Source,
     error::Error, field::Field, goals::Goals, index::Index, map::Map, motion::Motion, planner::Planner,
@@ -46,6 +48,26 @@ impl Map {
     #[must_use]
     pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
         Within { of: self, limits: limits.into() }
+    }
+}
+
+#[cfg(feature = "costs")]
+impl Costs {
+    /// These costs, for work that stops at a deadline or by a flag.
+    #[must_use]
+    pub fn within(&self, limits: impl Into<Limits>) -> Within<'_, Self> {
+        Within { of: self, limits: limits.into() }
+    }
+}
+
+#[cfg(feature = "costs")]
+impl Within<'_, Costs> {
+    /// [`Costs::space`].
+    ///
+    /// # Errors
+    /// As for [`Costs::space`], and [`Error::Stopped`].
+    pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
+        Space::of_costs(self.of, motion.into(), self.limits.interrupt())
     }
 }
 
@@ -90,6 +112,15 @@ impl Within<'_, Map> {
     /// As for [`Map::space`], and [`Error::Stopped`].
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::new(self.of, motion.into(), self.limits.interrupt())
+    }
+
+    /// [`Map::costs`].
+    ///
+    /// # Errors
+    /// As for [`Map::costs`], and [`Error::Stopped`].
+    #[cfg(feature = "costs")]
+    pub fn costs<C: Into<f64>>(&self, costs: impl IntoIterator<Item = C>) -> Result<Costs, Error> {
+        Costs::new(self.of, costs, self.limits.interrupt())
     }
 
     /// [`Map::path`].

@@ -70,7 +70,7 @@ impl Answer {
         }
     }
 
-    /// The length of the path in cells, if there is one.
+    /// The cost of the path, if there is one: its length in cells, on a cost surface its cost there.
     #[must_use]
     pub fn cost(&self) -> Option<f64> {
         self.path().map(Path::cost)
@@ -108,8 +108,9 @@ impl Answer {
         if let Self::Stopped(stopped) = self { Some(&stopped.best) } else { None }
     }
 
-    /// The length of the path in cells, the same number as that of tables and fields: infinite if there is
-    /// none, not a number if the search was stopped. `guarantee` is that of the engine.
+    /// The length of the path in cells, on a cost surface its cost: the same number as that of tables and
+    /// fields. Infinite if there is none, not a number if the search was stopped. `guarantee` is that of the
+    /// engine.
     #[must_use]
     pub fn distance(&self, guarantee: Guarantee) -> f64 {
         match self {
@@ -126,10 +127,9 @@ impl Answer {
     /// ends of the path that was found.
     #[must_use]
     pub fn lower_bound(&self, guarantee: Guarantee) -> f64 {
-        let is_optimal = matches!(guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle);
         match self {
             Self::Stopped(stopped) => stopped.lower_bound,
-            Self::Found(path) if is_optimal => guarantee.length(path),
+            Self::Found(path) if guarantee.is_optimal() => guarantee.length(path),
             Self::Found(_) => 0.0,
             Self::Unreachable | Self::Nearest(_) => f64::INFINITY,
         }
@@ -138,7 +138,7 @@ impl Answer {
     /// The certificate of the path: no path at any angle between the same two vertices under the same rules
     /// is shorter than this, in cells. It is the length of the path divided by the
     /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer. `None`
-    /// without a path. The length divided by it says how far the path can be from the best at most.
+    /// without a path, and on a cost surface. The length divided by it says how far the path can be from the best at most.
     ///
     /// ```
     /// use mediant_grid::{DiagonalGap, Rules};
@@ -154,14 +154,14 @@ impl Answer {
     /// ```
     #[must_use]
     pub fn any_angle_lower_bound(&self, guarantee: Guarantee, rules: Rules) -> Option<f64> {
-        let path = self.path()?;
+        let path = self.path().filter(|_| !matches!(guarantee, Guarantee::Cheapest(_)))?;
         let (start, goal) = (path.waypoints().first()?, path.waypoints().last()?);
         // The rounded sum of a straight path's parts may be less than the straight line.
         Some(guarantee.lower_bound(rules, path.cost(), start.distance(*goal)).min(path.cost()))
     }
 }
 
-/// As `found: 3 waypoints, 11.07 cells`.
+/// As `found: 3 waypoints, 11.07 cells`; on a cost surface as `found: 3 waypoints, 11.07 cells, cost 30.50`.
 impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -17,6 +17,9 @@ pub enum Guarantee {
     /// The path is over N(k), and no path over N(k) is shorter: in fixed-point costs exactly, in real lengths
     /// up to a factor of 1 + 2⁻³¹ (see [`Cost`](mediant_moves::Cost)).
     Optimal(FiniteK),
+    /// The path is over N(k) on a cost surface, and no path over N(k) costs less there. Of lengths, and of
+    /// paths at any angle, it says nothing.
+    Cheapest(FiniteK),
     /// No path over N(k) is shorter, in the same sense; the path itself has segments at any angle.
     AtMost(FiniteK),
     /// No legal path at all is shorter.
@@ -25,11 +28,12 @@ pub enum Guarantee {
     Suboptimal,
 }
 
-/// As `optimal(3)`, `at most optimal(3)`, `optimal(any)` or `suboptimal`.
+/// As `optimal(3)`, `cheapest(3)`, `at most optimal(3)`, `optimal(any)` or `suboptimal`.
 impl fmt::Display for Guarantee {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Optimal(k) => f.pad(&format!("optimal({k})")),
+            Self::Cheapest(k) => f.pad(&format!("cheapest({k})")),
             Self::AtMost(k) => f.pad(&format!("at most optimal({k})")),
             Self::OptimalAnyAngle => f.pad("optimal(any)"),
             Self::Suboptimal => f.pad("suboptimal"),
@@ -57,14 +61,15 @@ impl Guarantee {
     pub fn bound(self, rules: Rules) -> Option<f64> {
         match (self, rules) {
             (Self::OptimalAnyAngle, _) => Some(1.0),
-            (Self::Suboptimal, _) | (_, Rules::Center(CornerRule::Always)) => None,
+            (Self::Suboptimal | Self::Cheapest(_), _) | (_, Rules::Center(CornerRule::Always)) => None,
             (Self::Optimal(k) | Self::AtMost(k), Rules::Corner(_)) => Some(bound_at_corners(k)),
             (Self::Optimal(k) | Self::AtMost(k), Rules::Center(CornerRule::One)) => Some(bound_at_centers(k)),
             (_, Rules::Center(CornerRule::Never)) => Some(BOUND_WITHOUT_CORNER_CUTTING),
         }
     }
 
-    /// The cost of a path with this guarantee, by which it is compared with others: of an optimal path over
+    /// The length of a path with this guarantee, by which it is compared with others (not on a cost surface,
+    /// where [`PathCosts`](crate::PathCosts) has the cost): of an optimal path over
     /// N(k) the cost of its moves, as the search has it; of others a cost that depends on nothing but the
     /// length. So paths that are equally long compare as equal.
     #[must_use]
@@ -82,10 +87,16 @@ impl Guarantee {
     /// The length of a path with this guarantee, in cells, as it is told where no path is: of an optimal path
     /// over N(k) its [`cost`](Self::cost), which is the same for all optimal paths between two vertices, and
     /// for every engine, table and field; of others [`Path::cost`]. The two differ by a factor of 1 + 2⁻³³ at
-    /// most.
+    /// most. On a cost surface it is the cost there.
     #[must_use]
     pub fn length(self, path: &Path) -> f64 {
         if let Self::Optimal(_) = self { self.cost(path).to_f64() } else { path.cost() }
+    }
+
+    /// Whether no path of the engine's kind is better than its paths.
+    #[must_use]
+    pub const fn is_optimal(self) -> bool {
+        matches!(self, Self::Optimal(_) | Self::Cheapest(_) | Self::OptimalAnyAngle)
     }
 
     /// The guarantee of the same paths once they are smoothed.
@@ -93,6 +104,7 @@ impl Guarantee {
     pub const fn smoothed(self) -> Self {
         match self {
             Self::Optimal(k) => Self::AtMost(k),
+            Self::Cheapest(_) => Self::Suboptimal,
             Self::AtMost(_) | Self::OptimalAnyAngle | Self::Suboptimal => self,
         }
     }
@@ -100,9 +112,12 @@ impl Guarantee {
     /// A lower bound of the cost of every path at any angle between two vertices, when a path with this
     /// guarantee costs `cost` and the straight line between them measures `straight`: the larger of
     /// `straight` and `cost` divided by the [bound](Self::bound). In cells, up to the rounding that the
-    /// guarantee allows.
+    /// guarantee allows. 0 on a cost surface, for which none is known.
     #[must_use]
     pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
+        if let Self::Cheapest(_) = self {
+            return 0.0;
+        }
         self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))
     }
 }

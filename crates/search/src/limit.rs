@@ -15,11 +15,19 @@ pub(crate) const fn with_room(cells: f64) -> f64 {
     cells * (1.0 + ROOM)
 }
 
+/// The unit of costs that are lengths in cells.
+pub(crate) const UNIT: f64 = 1.0 / (1_u64 << Cost::FRACTION_BITS) as f64;
+
 /// The greatest cost within a limit in cells. A limit that is too large, or infinite, becomes the greatest
 /// cost.
 pub(crate) const fn greatest_cost(cells: f64) -> Cost {
-    // A product with a power of two is exact, and the cast saturates.
-    Cost::from_bits((with_room(cells) * (1_u64 << Cost::FRACTION_BITS) as f64) as u64)
+    greatest_cost_in(cells, UNIT)
+}
+
+/// The same for costs in another unit, a power of two.
+pub(crate) const fn greatest_cost_in(limit: f64, unit: f64) -> Cost {
+    // A quotient by a power of two is exact, and the cast saturates.
+    Cost::from_bits((with_room(limit) / unit) as u64)
 }
 
 /// A cost that was found, as a limit.

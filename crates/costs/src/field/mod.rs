@@ -88,6 +88,7 @@ pub struct CostField {
     /// By state: the number of the nearest source.
     allocation: Option<Vec<u32>>,
     sources: Box<[Vertex]>,
+    limit: f64,
     queue_bytes: usize,
 }
 
@@ -126,11 +127,11 @@ impl CostField {
             .zip(0..)
             .filter_map(|(&at, number)| Some((graph.end(at)?, number)))
             .collect();
-        let limit = graph.greatest_cost(query.limit);
+        let greatest = graph.greatest_cost(query.limit);
         let Labels { mut costs, sources: allocation, queue_bytes } =
-            search(&graph, &starts, (limit, query.allocation), threads, interrupt)?;
+            search(&graph, &starts, (greatest, query.allocation), threads, interrupt)?;
         costs.shrink_to_fit();
-        Ok(Self { graph, costs, allocation, sources: query.sources.into(), queue_bytes })
+        Ok(Self { graph, costs, allocation, sources: query.sources.into(), limit: query.limit, queue_bytes })
     }
 
     /// The memory that a field of a graph takes, in bytes, without the queue of its search, which takes a few
@@ -163,6 +164,36 @@ impl CostField {
     #[must_use]
     pub const fn sources(&self) -> &[Vertex] {
         &self.sources
+    }
+
+    /// Its query: the same field can be made on another surface.
+    #[must_use]
+    pub fn query(&self) -> CostFieldQuery<'_> {
+        let Self { sources, limit, allocation, .. } = self;
+        CostFieldQuery { sources, limit: *limit, allocation: allocation.is_some() }
+    }
+
+    /// The number of vertices in a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.graph.size().0
+    }
+
+    /// The number of rows of vertices.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.graph.size().1
+    }
+
+    /// The vertices in the field, row by row, with their costs as numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (Vertex, f64)> {
+        self.vertices().filter_map(|at| Some((at, self.get(at)?)))
+    }
+
+    /// The costs of all vertices as numbers, row by row; infinity where a vertex is not in the field.
+    /// [`into_rows`](Self::into_rows) has them without a second array.
+    pub fn rows(&self) -> impl Iterator<Item = f64> {
+        self.vertices().map(|at| self.get(at).unwrap_or(f64::INFINITY))
     }
 
     /// The state of a path that ends at a vertex.
@@ -230,7 +261,7 @@ impl CostField {
     /// [`CostGraph::crossings`] has every cell that it crosses.
     #[must_use]
     pub fn path_from(&self, at: Vertex) -> Option<Path> {
-        self.cost(at)?;
+        let cost = self.get(at)?;
         let mut waypoints = vec![at];
         let mut next = self.state(at);
         let (mut at, mut last) = (at, None);
@@ -243,7 +274,7 @@ impl CostField {
             }
             (last, next) = (Some(v), Some(state));
         }
-        Some(Path::new(waypoints))
+        Some(Path::with_cost(waypoints, cost))
     }
 
     /// The costs of all vertices, row by row; infinity where a vertex is not in the field. No second array is

@@ -9,6 +9,8 @@
 mod anya;
 mod canonical;
 mod clusters;
+#[cfg(feature = "costs")]
+mod costs;
 mod earlier;
 mod grid_search;
 mod jps_plus;
@@ -184,6 +186,10 @@ pub(crate) fn prepare(
                 Placed::Corners($layers) => shared($index),
             }
         };
+    }
+    #[cfg(feature = "costs")]
+    if let Some(surface) = space.surface() {
+        return shared(costs::CostIndex::new(space, surface, setup.engine));
     }
     let (k, engine) = (setup.finite_k(), setup.engine.kind());
     match setup.engine {

@@ -49,7 +49,10 @@ impl Index {
         }
         let engine = self.setup.engine.kind();
         let payload = self.prepared.to_bytes(interrupt)?;
-        let payload = payload.ok_or_else(|| SetupError::without_index(engine))?;
+        let payload = payload.ok_or_else(|| match self.space.has_costs() {
+            true => SetupError::INDEX_ON_COSTS,
+            false => SetupError::without_index(engine),
+        })?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))
     }
 }

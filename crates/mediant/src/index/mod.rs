@@ -138,7 +138,7 @@ impl Index {
         source: Source<'_>,
     ) -> Result<Self, Error> {
         let setup = Setup::new(engine, space.motion());
-        setup.check()?;
+        space.check_setup(&setup)?;
         let prepared = engines::prepare(setup, space, source)?;
         let space = space.clone();
         if source.bytes.is_none() {
@@ -169,10 +169,10 @@ impl Index {
     }
 
     pub(crate) fn prepared_for_k(&self, k: K, interrupt: &Interrupt) -> Result<Self, Error> {
-        let space = Space::new(self.space.map(), Motion::of(k, self.setup.rules()), interrupt)?;
+        let space = self.space.with_motion(Motion::of(k, self.setup.rules()), interrupt)?;
         let source = Source { interrupt, ..self.source() };
         let setup = Setup { motion: space.motion(), ..self.setup };
-        setup.check()?;
+        space.check_setup(&setup)?;
         let prepared = match self.prepared.for_k(setup, &space, source)? {
             Some(prepared) => prepared,
             None => engines::prepare(setup, &space, source)?,
@@ -194,7 +194,7 @@ impl Index {
     /// [`Error::Side`] for options that decide what is prepared, if the index has others.
     pub fn with_options(self, engine: impl Into<ConfiguredEngine>) -> Result<Self, Error> {
         let setup = Setup { engine: engine.into(), ..self.setup };
-        setup.check()?;
+        self.space.check_setup(&setup)?;
         let (engine, known) = (setup.engine, self.setup.engine.kind());
         let prepared = self.prepared.with_options(engine)?;
         let prepared = prepared.ok_or(SetupError::OtherEngine { engine: engine.kind(), known })?;
@@ -202,7 +202,8 @@ impl Index {
         Ok(Self { setup: Setup { engine, ..setup }, prepared, ..self })
     }
 
-    /// The same index for planners that smooth their paths, or do not.
+    /// The same index for planners that smooth their paths, or do not. Where cells have costs, a planner that
+    /// is to smooth says that it does not: [`QueryError::Smoothing`](mediant_search::QueryError::Smoothing).
     #[must_use]
     pub fn with_smoothing(self, smoothing: Option<Smoothing>) -> Self {
         Self { setup: Setup { smoothing, ..self.setup }, ..self }
@@ -214,6 +215,7 @@ impl Index {
     /// As for [`with_options`](Self::with_options).
     pub fn with_call(&self, call: &Call) -> Result<Self, Error> {
         let engine = call.configured(self.setup.engine.kind())?;
+        self.space.check_setup(&Setup { engine, smoothing: call.smoothing(), ..self.setup })?;
         Ok(self.clone().with_options(engine)?.with_smoothing(call.smoothing()))
     }
 

@@ -114,7 +114,12 @@ impl Index {
     ) -> Result<Option<Self>, Error> {
         let (before, after) = (change.before().identity(), change.after());
         let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
-        let repaired = if is_of_the_same_size { self.prepared.repaired(change, interrupt)? } else { None };
+        let is_of_the_same_kind = change.before().has_costs() == after.has_costs();
+        let repaired = if is_of_the_same_size && is_of_the_same_kind {
+            self.prepared.repaired(change, interrupt)?
+        } else {
+            None
+        };
         let to = |prepared| Self { space: after.clone(), origin: Origin::Repaired, prepared, ..self.clone() };
         Ok(repaired.map(to))
     }

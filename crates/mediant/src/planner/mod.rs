@@ -21,6 +21,7 @@ use crate::{
     map::Map,
     memory_check,
     setup::Setup,
+    setup_error::SetupError,
     space::{Placed, Space},
 };
 
@@ -101,8 +102,11 @@ impl Index {
     /// A planner on this index, if there is room for its [scratch memory](Self::scratch_bytes).
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] where memory is short.
+    /// [`Error::OutOfMemory`] where memory is short; [`Error::Setup`] for smoothing where cells have costs.
     pub fn try_planner(&self) -> Result<Planner, Error> {
+        if self.setup().smoothing.is_some() {
+            self.space().check_is_without_costs(SetupError::SMOOTHING_ON_COSTS)?;
+        }
         memory_check::check("the planner", self.scratch_bytes())?;
         Ok(self.planner())
     }
@@ -165,6 +169,7 @@ impl Planner {
             return self.finish();
         };
         self.begun = None;
+        self.check_smoothing()?;
         let answer = self.search.solve(ends);
         self.smoothed(answer)
     }
@@ -191,8 +196,8 @@ impl Planner {
         Ok(self.find(Query::new(start, goal))?.into_path())
     }
 
-    /// The length of the path that [`find`](Self::find) finds, in cells; `None` if there is none. On hub
-    /// labels this takes less time than the path. A planner that smooths its paths measures the smoothed one.
+    /// The length of the path that [`find`](Self::find) finds, in cells, or where cells have costs its cost;
+    /// `None` if there is none. On hub labels this takes less time than the path. A planner that smooths its paths measures the smoothed one.
     ///
     /// Over N(k), shortest paths have the same length here, in a [`Table`](crate::Table) and in a
     /// [`Field`](crate::Field), to the last bit, whatever the engine: [`Guarantee::length`]. It differs from
@@ -234,6 +239,7 @@ impl Planner {
             return self.finish_observed(observer);
         };
         self.begun = None;
+        self.check_smoothing()?;
         let mut observer = observer;
         let answer = Dynamic(&mut *self.search).solve_observed(ends, &mut observer);
         self.smoothed(answer)
@@ -247,6 +253,14 @@ impl Planner {
         let mut counters = Counters::default();
         let answer = self.find_observed(query, &mut counters)?;
         Ok((answer, counters))
+    }
+
+    /// Refuses to smooth paths where cells have costs.
+    fn check_smoothing(&self) -> Result<(), QueryError> {
+        match self.smooth.is_some() && self.index.space().has_costs() {
+            true => Err(QueryError::Smoothing),
+            false => Ok(()),
+        }
     }
 
     /// Smooths the path, if the planner smooths its paths.
@@ -268,7 +282,7 @@ impl Planner {
     fn smoothed_bound(&self, lower_bound: f64) -> f64 {
         match self.guarantee {
             Guarantee::AtMost(_) => self.bound().map_or(0.0, |bound| lower_bound / bound),
-            Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle | Guarantee::Suboptimal => lower_bound,
+            _ => lower_bound,
         }
     }
 
@@ -279,7 +293,7 @@ impl Planner {
     }
 
     /// How much longer than the shortest path at any angle its paths can be: 1.08 is 8 %. `None` where no
-    /// bound is proven.
+    /// bound is proven, as none is where cells have costs.
     #[must_use]
     pub fn bound(&self) -> Option<f64> {
         self.guarantee.bound(self.index.setup().rules())

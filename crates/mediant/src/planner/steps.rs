@@ -1,11 +1,15 @@
 //! Searches in steps.
 
-use mediant_grid::Vertex;
+use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::K;
-use mediant_search::{Answer, Observer, Path, Query, QueryError, Search};
+use mediant_search::{Answer, Guarantee, Observer, Path, Query, QueryError, Search};
 
 use super::Planner;
-use crate::{erased::Dynamic, setup::Setup, space::Placed};
+use crate::{
+    erased::Dynamic,
+    setup::Setup,
+    space::{Placed, Space},
+};
 
 /// # A search in steps
 ///
@@ -36,18 +40,18 @@ impl Planner {
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
     pub fn begin(&mut self, query: impl Into<Query>) -> Result<(), QueryError> {
         self.begun = None;
+        self.check_smoothing()?;
         let guarantee = self.search.guarantee();
         let space = self.index.space();
-        let metric = space.metric();
         // Smoothing connects nothing that the search does not.
         let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
         let (is_any_angle, query) = (unsmoothed.paths() == K::Any, query.into());
         self.begun = Some(match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };
-                Search::new(free, metric, guarantee, query)
+                search_in(space, free, guarantee, query)
             }
-            Placed::Corners(layers) => Search::new(&layers.free, metric, guarantee, query),
+            Placed::Corners(layers) => search_in(space, &layers.free, guarantee, query),
         }?);
         Ok(())
     }
@@ -109,7 +113,8 @@ impl Planner {
         begun.as_ref()?.path_to(&mut Dynamic(&mut **search), at.into())
     }
 
-    /// A lower bound on the cost of its answer, in cells. 0 without a search.
+    /// A lower bound on the cost of its answer, in cells, or in costs where cells have some. 0 without a
+    /// search.
     #[must_use]
     pub fn lower_bound(&self) -> f64 {
         self.begun.as_ref().map_or(0.0, |begun| self.smoothed_bound(begun.lower_bound()))
@@ -119,5 +124,18 @@ impl Planner {
     #[must_use]
     pub fn expansions(&self) -> u64 {
         self.begun.as_ref().map_or(0, Search::expansions)
+    }
+}
+
+/// The search for a query by a planner with this guarantee.
+fn search_in<P: Placement>(
+    space: &Space,
+    free: &FreeSpace<P>,
+    guarantee: Guarantee,
+    query: Query,
+) -> Result<Search, QueryError> {
+    match space.path_costs() {
+        Some(costs) => Search::on_costs(free, space.metric(), (guarantee, costs), query),
+        None => Search::new(free, space.metric(), guarantee, query),
     }
 }

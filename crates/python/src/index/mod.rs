@@ -156,6 +156,7 @@ impl Index {
     fn guarantee_text(&self) -> String {
         match self.guarantee().0 {
             Guarantee::Optimal(k) => format!("shortest over k = {k}"),
+            Guarantee::Cheapest(k) => format!("cheapest over k = {k}"),
             Guarantee::AtMost(k) => format!("at most as long as the shortest over k = {k}"),
             Guarantee::OptimalAnyAngle => "shortest at any angle".to_owned(),
             Guarantee::Suboptimal => "none".to_owned(),

@@ -78,7 +78,7 @@ impl Path {
     /// than the others unless the length is a multiple of `spacing`; a step below a billionth of `spacing`
     /// is left out. A path of length 0 has one point, one without waypoints none.
     ///
-    /// The points are made one by one. For a small spacing there are many of them: at least the cost divided
+    /// The points are made one by one. For a small spacing there are many of them: at least the length divided
     /// by `spacing`.
     ///
     /// ```
@@ -95,7 +95,7 @@ impl Path {
         if spacing.is_nan() || spacing <= 0.0 {
             return Err(SpacingError { spacing });
         }
-        let last = self.cost - SHORTEST_STEP * spacing;
+        let last = self.length - SHORTEST_STEP * spacing;
         let mut segments = self.segments();
         let (mut segment, mut before) = (segments.next(), 0.0);
         let mut steps = 0_u64;
@@ -113,7 +113,7 @@ impl Path {
         });
         let end = |at: Option<&Vertex>| at.map(|at| point((at.x, at.y)));
         let first = end(self.waypoints.first());
-        let last = end(self.waypoints.last().filter(|_| self.cost > 0.0));
+        let last = end(self.waypoints.last().filter(|_| self.length > 0.0));
         Ok(first.into_iter().chain(inner).chain(last))
     }
 

@@ -22,7 +22,7 @@ pub(crate) use self::{
     steps::{between, vertices},
 };
 
-/// A path: its waypoints and its length.
+/// A path: its waypoints, its length, and its cost.
 ///
 /// Two consecutive waypoints are joined by one move of N(k), taken once or several times in a row, or in
 /// any-angle paths by a straight legal segment. A path from a vertex to itself has that vertex as its only
@@ -32,6 +32,10 @@ pub(crate) use self::{
 /// A path knows no map: its waypoints may be anywhere, and [`check`](Self::check) asks whether it holds on a
 /// map. Places on it are vertices, whole or not: between centers, (x, y) is the middle of cell (x, y), at
 /// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
+///
+/// **Cost and length** are one number, unless the path is one on a cost surface, where each cell has a cost of
+/// its own: then [`cost`](Self::cost) is that of the surface, and [`length`](Self::length) the length all the
+/// same. Paths are equal if they have the same waypoints and cost.
 ///
 /// Waypoints of maps are less than 2³¹ apart along each axis. Where they are not, [`moves`](Self::moves) and
 /// [`touched_cells`](Self::touched_cells) pass over the segment; all else is right there too.
@@ -47,19 +51,42 @@ pub(crate) use self::{
 /// assert_eq!(path.point_at(1.5), Some((1.5, 0.0)));
 /// assert_eq!(path.reversed().to_string(), "(5, 2) → (3, 0) → (0, 0)");
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Path {
     waypoints: Vec<Vertex>,
-    cost: f64,
+    length: f64,
+    /// The cost on a cost surface.
+    own_cost: Option<f64>,
+}
+
+impl PartialEq for Path {
+    fn eq(&self, other: &Self) -> bool {
+        self.waypoints == other.waypoints && self.cost() == other.cost()
+    }
 }
 
 impl Path {
-    /// The path along these waypoints; its cost is the sum of the lengths of the segments between them.
+    /// The path along these waypoints; its cost is its length, the sum of the lengths of the segments between
+    /// them.
     #[must_use]
     pub fn new(waypoints: Vec<Vertex>) -> Self {
         // Not `sum`, which yields −0 for no segments.
-        let cost = waypoints.windows(2).fold(0.0, |cost, ends| cost + ends[0].distance(ends[1]));
-        Self { waypoints, cost }
+        let length = waypoints.windows(2).fold(0.0, |length, ends| length + ends[0].distance(ends[1]));
+        Self { waypoints, length, own_cost: None }
+    }
+
+    /// The path along these waypoints with a cost of its own: that on a cost surface, which the path does not
+    /// know.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::with_cost(vec![(0, 0).into(), (3, 4).into()], 20.0);
+    /// assert_eq!((path.cost(), path.length()), (20.0, 5.0));
+    /// assert_eq!((path.reversed().cost(), path.rest((3, 4)).map(|rest| rest.cost())), (20.0, Some(0.0)));
+    /// ```
+    #[must_use]
+    pub fn with_cost(waypoints: Vec<Vertex>, cost: f64) -> Self {
+        Self { own_cost: Some(cost), ..Self::new(waypoints) }
     }
 
     /// The waypoints, start and goal included.
@@ -79,7 +106,8 @@ impl Path {
         self.waypoints.iter().copied().map(Point::from)
     }
 
-    /// The number of waypoints. [`vertices`](Self::vertices) counts each step, [`cost`](Self::cost) measures.
+    /// The number of waypoints. [`vertices`](Self::vertices) counts each step, [`length`](Self::length)
+    /// measures.
     #[must_use]
     pub const fn len(&self) -> usize {
         self.waypoints.len()
@@ -102,22 +130,33 @@ impl Path {
         self.waypoints
     }
 
+    /// The cost: the [`length`](Self::length), but for a path on a cost surface its cost there.
+    #[must_use]
+    pub const fn cost(&self) -> f64 {
+        match self.own_cost {
+            Some(cost) => cost,
+            None => self.length,
+        }
+    }
+
     /// The Euclidean length in cells, recomputed from the waypoints rather than taken from the search's
     /// fixed-point sum.
     #[must_use]
-    pub const fn cost(&self) -> f64 {
-        self.cost
+    pub const fn length(&self) -> f64 {
+        self.length
     }
 
-    /// The path from its goal to its start. Its cost is summed up from there, so that it can differ from this
-    /// path's in the last bits.
+    /// The path from its goal to its start. Its length is summed up from there, so that it can differ from
+    /// this path's in the last bits. A cost of its own is the same.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        Self::new(self.waypoints.iter().rev().copied().collect())
+        let waypoints = self.waypoints.iter().rev().copied().collect();
+        Self { own_cost: self.own_cost, ..Self::new(waypoints) }
     }
 
     /// This path and then another one, which begins where this one ends. If it goes straight on there, that
-    /// waypoint is left out; all others are kept. A path without waypoints adds nothing to another one.
+    /// waypoint is left out; all others are kept. A path without waypoints adds nothing to another one. The
+    /// costs of paths on a cost surface are added.
     ///
     /// Two paths that hold on a map can meet at a closed gap that the whole may not pass:
     /// [`check`](Self::check) tells.
@@ -148,13 +187,15 @@ impl Path {
             waypoints.pop();
         }
         waypoints.extend_from_slice(other.waypoints.get(1..).unwrap_or_default());
-        Ok(Self::new(waypoints))
+        let has_own = self.own_cost.is_some() || other.own_cost.is_some();
+        Ok(Self { own_cost: has_own.then(|| self.cost() + other.cost()), ..Self::new(waypoints) })
     }
 }
 
 impl Path {
     /// The rest of the path from a vertex on it, where the path passes it first; `None` for a vertex that is
-    /// not on the path.
+    /// not on the path. Its cost is its length: on a cost surface, which the path does not know, measure it
+    /// anew.
     ///
     /// ```
     /// use mediant_search::Path;
@@ -171,7 +212,7 @@ impl Path {
             from == ends[0] || from == ends[1] || one.continues_in(&other)
         };
         if self.waypoints.as_slice() == [from] {
-            return Some(self.clone());
+            return Some(Self::new(vec![from]));
         }
         let index = self.waypoints.windows(2).position(is_on)?;
         let after = self.waypoints[index + 1..].iter().copied().skip_while(|&at| at == from);
@@ -231,7 +272,8 @@ pub(crate) struct Measured<'a>(pub(crate) &'a Path);
 
 impl fmt::Display for Measured<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (count, cost) = (self.0.len(), self.0.cost());
-        write!(f, "{count} waypoint{}, {cost:.2} cells", if count == 1 { "" } else { "s" })
+        let (count, length) = (self.0.len(), self.0.length());
+        write!(f, "{count} waypoint{}, {length:.2} cells", if count == 1 { "" } else { "s" })?;
+        self.0.own_cost.map_or(Ok(()), |cost| write!(f, ", cost {cost:.2}"))
     }
 }

@@ -1,6 +1,6 @@
 //! From which vertex to which a query asks for a path.
 
-use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::Cost;
 
 use super::{Wishes, nearest::nearest};
@@ -10,11 +10,14 @@ use crate::{
     query::{End, Ends, QueryError},
 };
 
+/// No path by a displacement costs less.
+pub(super) type Bound<'b> = dyn Fn(Vector) -> Cost + 'b;
+
 /// A path that answers the query, if it is the shortest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pair {
     pub(super) ends: Ends,
-    /// No path between the two is shorter: the straight line, or h_k where paths are over N(k).
+    /// No path between the two costs less: the straight line, or h_k where paths are over N(k).
     pub(super) least: Cost,
     /// Its place in the order of goals, then of starts.
     pub(super) rank: (u32, u32),
@@ -39,12 +42,11 @@ impl EndSets {
         self.pairs.iter().all(|pair| pair.ends.start == start).then_some(start)
     }
 
-    /// The pairs of a query. `metric` is h_k or the straight line, by which 'near' is measured; `bound` is
-    /// the metric by which no path is shorter.
+    /// The pairs of a query. `metric` is h_k or the straight line, by which 'near' is measured.
     pub(super) fn new<P: Placement>(
         space: &FreeSpace<P>,
         metric: Metric,
-        bound: Metric,
+        bound: &Bound<'_>,
         wishes: &Wishes,
     ) -> Result<Self, QueryError> {
         wishes.limits.check()?;
@@ -68,14 +70,14 @@ impl EndSets {
     fn add<P: Placement>(
         &mut self,
         space: &FreeSpace<P>,
-        bound: Metric,
+        bound: &Bound<'_>,
         starts: &[Vertex],
         goals: &[Vertex],
     ) {
         for (&goal, goal_rank) in goals.iter().zip(0..) {
             for (&start, start_rank) in starts.iter().zip(0..) {
                 if space.connected(start, goal) {
-                    let least = bound.estimate(start.to(goal));
+                    let least = bound(start.to(goal));
                     let rank = (goal_rank, start_rank);
                     self.pairs.push(Pair { ends: Ends::new(start, goal), least, rank });
                 }
@@ -88,7 +90,7 @@ impl EndSets {
         &mut self,
         space: &FreeSpace<P>,
         metric: Metric,
-        bound: Metric,
+        bound: &Bound<'_>,
         starts: &[Vertex],
         wishes: &Wishes,
     ) {

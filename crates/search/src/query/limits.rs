@@ -10,7 +10,7 @@ use mediant_moves::Cost;
 
 use super::error::QueryError;
 use crate::{
-    limit::greatest_cost,
+    limit::greatest_cost_in,
     path::{Measured, Path},
 };
 
@@ -71,7 +71,7 @@ pub struct Stopped {
     /// else the path to the vertex nearest to a goal among those that the search expanded within the limit on
     /// the cost, by h_k (at k = ∞ by the straight line), the first of several. At least the start.
     pub best: Path,
-    /// A lower bound on the cost of the path that was sought, in cells: no path over N(k) between the ends
+    /// A lower bound on the cost of the path that was sought, in cells (on a cost surface in its unit): no path over N(k) between the ends
     /// that were asked for, by an engine of any-angle paths no legal path, is shorter. Up to the rounding of
     /// [`Cost`]. (Of a path that was found, [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells
     /// another bound: on all paths at any angle between its ends.)
@@ -109,7 +109,7 @@ impl Limits {
         Self::default()
     }
 
-    /// The greatest cost of a path, in cells. A path that costs exactly as much is within it: costs are
+    /// The greatest cost of a path, in cells; on a cost surface in its own unit. A path that costs exactly as much is within it: costs are
     /// rounded, so all limits leave room for a factor of 1 + 2⁻³¹. An engine that guarantees nothing of its
     /// paths may miss one that costs nearly as much.
     #[must_use]
@@ -162,9 +162,9 @@ impl Limits {
         self.cost.is_none() && self.expansions.is_none() && self.interrupt.is_never()
     }
 
-    /// The greatest cost, with room for rounding.
-    pub(super) fn greatest_cost(&self) -> Cost {
-        self.cost.map_or(Cost::MAX, greatest_cost)
+    /// The greatest cost in this unit, with room for rounding.
+    pub(super) fn greatest_cost(&self, unit: f64) -> Cost {
+        self.cost.map_or(Cost::MAX, |cost| greatest_cost_in(cost, unit))
     }
 
     /// The limit that is met after this many expansions.

@@ -6,6 +6,7 @@ mod ends;
 mod error;
 mod limits;
 mod nearest;
+mod path_costs;
 mod search;
 mod watch;
 
@@ -18,6 +19,7 @@ pub use self::{
     ends::Ends,
     error::QueryError,
     limits::{Limit, Limits, Stopped},
+    path_costs::PathCosts,
     search::Search,
 };
 
@@ -111,7 +113,7 @@ impl Query {
         Ends::new(start, goal).into()
     }
 
-    /// The shortest of the paths from any of the starts to any of the goals. Of paths of the same cost, the
+    /// The shortest of the paths from any of the starts to any of the goals, on a cost surface the cheapest. Of paths of the same cost, the
     /// one whose goal comes first in the list, then the one whose start does.
     #[must_use]
     pub fn between<S: Into<Vertex>, G: Into<Vertex>>(

@@ -1,17 +1,20 @@
 //! The search for the answer to a query.
 
+use std::sync::Arc;
+
 use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::Cost;
 
 use super::{
-    Query,
-    end_sets::{EndSets, Pair},
+    PathCosts, Query,
+    end_sets::{Bound, EndSets, Pair},
     limits::{Limit, Stopped},
     watch::{Pause, Progress, Watch},
 };
 use crate::{
     answer::Answer,
     guarantee::Guarantee,
+    limit::UNIT,
     metric::Metric,
     observer::Observer,
     path::Path,
@@ -52,6 +55,8 @@ pub struct Search {
     ends: EndSets,
     metric: Metric,
     guarantee: Guarantee,
+    /// On a cost surface.
+    costs: Option<Arc<dyn PathCosts>>,
     /// The pair that is searched, and whether the planner has begun with it.
     next: usize,
     has_begun: bool,
@@ -101,8 +106,32 @@ impl Search {
         guarantee: Guarantee,
         query: Query,
     ) -> Result<Self, QueryError> {
-        let wishes = query.into_wishes();
         let bound = if let Guarantee::Optimal(_) = guarantee { metric } else { Metric::Euclidean };
+        Self::with_bound(space, (metric, &|v| bound.estimate(v)), (guarantee, None), query)
+    }
+
+    /// The same for a planner of paths on a cost surface. What is near stays a matter of lengths: the nearest
+    /// vertex, the tolerance, the ends that are moved. `metric` measures them.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn on_costs<P: Placement>(
+        space: &FreeSpace<P>,
+        metric: Metric,
+        (guarantee, costs): (Guarantee, Arc<dyn PathCosts>),
+        query: Query,
+    ) -> Result<Self, QueryError> {
+        let bound = Arc::clone(&costs);
+        Self::with_bound(space, (metric, &|v| bound.least(v)), (guarantee, Some(costs)), query)
+    }
+
+    fn with_bound<P: Placement>(
+        space: &FreeSpace<P>,
+        (metric, bound): (Metric, &Bound<'_>),
+        (guarantee, costs): (Guarantee, Option<Arc<dyn PathCosts>>),
+        query: Query,
+    ) -> Result<Self, QueryError> {
+        let wishes = query.into_wishes();
         let ends = EndSets::new(space, metric, bound, &wishes)?;
         // A search that may be stopped leads forward to one of the goals first, since only then the best so
         // far begins at the start.
@@ -113,7 +142,7 @@ impl Search {
             _ => Backward::No,
         };
         let progress = Progress {
-            greatest: wishes.limits.greatest_cost(),
+            greatest: wishes.limits.greatest_cost(costs.as_ref().map_or(UNIT, |costs| costs.unit())),
             limits: wishes.limits,
             expansions: 0,
             next_look: 0,
@@ -130,6 +159,7 @@ impl Search {
             ends,
             metric,
             guarantee,
+            costs,
             next: 0,
             has_begun: false,
             backward,
@@ -268,11 +298,14 @@ impl Search {
             Backward::No | Backward::After(..) => planner.path_to(pair.ends.goal),
         };
         if let Some(path) = path {
-            let cost = self.guarantee.cost(&path);
+            let cost = match &self.costs {
+                Some(costs) => costs.cost(&path),
+                None => self.guarantee.cost(&path),
+            };
             if cost > self.progress.greatest {
                 // No search asks for a pause before it takes the goal: the path itself may be the first to
                 // cost more than the limit.
-                let least = if self.is_optimal() { cost } else { pair.least };
+                let least = if self.guarantee.is_optimal() { cost } else { pair.least };
                 return self.leave_beyond_limit(least, planner);
             }
             let is_better = |known: &Found| (cost, pair.rank) < (known.cost, known.rank);
@@ -341,13 +374,13 @@ impl Search {
         if self.has_begun && !self.is_backward() { planner.path_to(at) } else { None }
     }
 
-    /// A lower bound on the cost of the answer, in cells; see [`Stopped::lower_bound`].
+    /// A lower bound on the cost of the answer, in cells or in the unit of the cost surface; see [`Stopped::lower_bound`].
     #[must_use]
     pub fn lower_bound(&self) -> f64 {
         /// Costs are rounded sums.
         const ROUNDED: f64 = 1.0 - 1.0 / (1_u64 << 31) as f64;
         let pairs = &self.ends.pairs;
-        let least = if self.is_optimal() {
+        let least = if self.guarantee.is_optimal() {
             let current = self.pair().map(|&pair| self.current_bound(pair));
             let later = pairs.get(self.next + 1).map(|pair| pair.least);
             // Once there is an answer, it has taken the path that was found, but not its cost.
@@ -356,18 +389,14 @@ impl Search {
         } else {
             pairs.first().map(|pair| pair.least)
         };
-        least.map_or(0.0, |least| least.to_f64() * ROUNDED)
+        let unit = self.costs.as_ref().map_or(UNIT, |costs| costs.unit());
+        least.map_or(0.0, |least| least.to_bits() as f64 * unit * ROUNDED)
     }
 
     /// A lower bound on the paths of the pair that is searched.
     fn current_bound(&self, pair: Pair) -> Cost {
-        let is_known = self.is_optimal() && self.has_begun;
+        let is_known = self.guarantee.is_optimal() && self.has_begun;
         if is_known { self.progress.least.max(pair.least) } else { pair.least }
-    }
-
-    /// Whether no path of the planner's kind is shorter than its paths.
-    const fn is_optimal(&self) -> bool {
-        matches!(self.guarantee, Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle)
     }
 
     /// The number of expansions so far.

@@ -114,7 +114,7 @@ impl Case<'_> {
         assert_eq!(fault, Ok(()), "{}", case());
         let [optimum, any_angle] = [self.optimum, self.any_angle].map(|cost| cost.unwrap_or(f64::NAN));
         let (least, most) = match engine.guarantee {
-            Guarantee::Optimal(_) => (optimum, optimum),
+            Guarantee::Optimal(_) | Guarantee::Cheapest(_) => (optimum, optimum),
             Guarantee::AtMost(_) => (any_angle, optimum),
             Guarantee::OptimalAnyAngle => (any_angle, any_angle),
             Guarantee::Suboptimal if engine.paths == K::Any => (any_angle, f64::INFINITY),

@@ -1,0 +1,211 @@
+//! Costs of cells.
+
+use std::{fmt, sync::Arc};
+
+use mediant_costs::{CostMap, CostsError};
+use mediant_grid::{Interrupt, MapId, Vertex};
+
+use crate::{error::Error, map::Map, memory_check, motion::Motion, never::NEVER, space::Space};
+
+/// A map whose free cells have a cost a unit of length: a cost surface, made by [`Map::costs`]. It never
+/// changes; an edit makes another one. Clones share it.
+///
+/// **What a path costs.** A move costs the sum, over the cells that it crosses, of its length in the cell
+/// times the cell's cost. So a step between two cells has half of its length in each. A move along the line
+/// between two cells, as there are between corners, costs the lesser one of the two. Costs are exact integers
+/// inside: results are the same on every platform, and where all cells cost 1 they are lengths.
+///
+/// **What there is on costs.** [`space`](Self::space) makes a [`Space`] for k = 2 to 8, with the queries,
+/// limits, fields, tables and edits that all spaces have. Its engines are A* and Dijkstra's algorithm; others
+/// say so. [`Path::cost`](crate::Path::cost), fields and limits are in costs,
+/// [`Path::length`](crate::Path::length), tolerances and what is 'nearest' in cells. The bounds against
+/// paths at any angle say nothing on costs. Not there yet: smoothing, exceptions, saved indexes.
+#[derive(Clone)]
+pub struct Costs {
+    map: Map,
+    surface: Arc<CostMap>,
+}
+
+/// Costs of cells that were edited: column, row and cost; `None` is blocked.
+pub(crate) type Edits = Vec<(u32, u32, Option<f64>)>;
+
+impl Map {
+    /// This map with costs of its cells, row by row: one for each cell, those of blocked cells are not looked
+    /// at. A cost is a positive number, of any type that becomes an `f64`; a wall is a blocked cell of the
+    /// map. Cells are 1 × 1; [`Costs::with_cell_size`] has others.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let map = Map::from_rows(["....", ".##.", "...."])?;
+    /// // A road of cost 1 at the bottom, through land of cost 3.
+    /// let costs = map.costs([
+    ///     3, 3, 3, 3, //
+    ///     1, 0, 0, 1, //
+    ///     1, 1, 1, 1,
+    /// ])?;
+    /// let space = costs.space(Motion::centers(3))?;
+    /// let path = space.path((0, 0), (3, 0))?.expect("there is a way");
+    /// assert_eq!((path.cost(), path.length()), (9.0, 7.0));
+    /// let field = space.field([(3, 2)])?;
+    /// assert_eq!(field.get((0, 0)), Some(6.0));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Costs`] for another number of costs than cells, for the first cost of a free cell that is
+    /// zero, negative, infinite or not a number, and for costs that are more than 65,536 times as great as
+    /// others (costs that are integers, on small maps, may differ by more); [`Error::OutOfMemory`].
+    pub fn costs<C: Into<f64>>(&self, costs: impl IntoIterator<Item = C>) -> Result<Costs, Error> {
+        Costs::new(self, costs, &NEVER)
+    }
+}
+
+impl Costs {
+    pub(crate) fn new<C: Into<f64>>(
+        map: &Map,
+        costs: impl IntoIterator<Item = C>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Error> {
+        let columns = map.width() as usize;
+        let expected = u64::from(map.width()) * u64::from(map.height());
+        memory_check::check("the costs", expected.saturating_mul(BYTES))?;
+        let costs: Vec<f64> = costs.into_iter().map(Into::into).collect();
+        if costs.len() as u64 != expected {
+            return Err(CostsError::Count { found: costs.len(), expected }.into());
+        }
+        let cost = |x: u32, y: u32| costs[y as usize * columns + x as usize];
+        Self::of(map, (1.0, 1.0), interrupt, cost)
+    }
+
+    fn of(
+        map: &Map,
+        cell_size: (f64, f64),
+        interrupt: &Interrupt,
+        cost: impl Fn(u32, u32) -> f64,
+    ) -> Result<Self, Error> {
+        let (grid, size) = (map.grid(), (map.width(), map.height()));
+        let cost = |x: u32, y: u32| grid.is_free(x as i32, y as i32).then(|| cost(x, y));
+        let surface = CostMap::with_cells(size, cell_size, interrupt, cost)?;
+        // Without what the map keeps for paths of its own.
+        Ok(Self { map: Arc::clone(grid).into(), surface: Arc::new(surface) })
+    }
+
+    /// A map and the surface of its costs, which have the same blocked cells.
+    pub(crate) const fn of_parts(map: Map, surface: Arc<CostMap>) -> Self {
+        Self { map, surface }
+    }
+
+    /// The same costs on cells of another width and height, which are numbers of any unit of length: a cost
+    /// is one a unit.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let costs = Map::new(4, 3)?.costs([2.0; 12])?.with_cell_size(30.0, 20.0)?;
+    /// let path = costs.space(Motion::centers(4))?.path((0, 0), (0, 2))?.expect("there is a way");
+    /// assert_eq!((path.cost(), path.length()), (80.0, 2.0));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Costs`] for a size that is no positive number, or if one is more than 65,536 times the other.
+    pub fn with_cell_size(&self, x: f64, y: f64) -> Result<Self, Error> {
+        let cost = |x: u32, y: u32| self.surface.cost(x, y).unwrap_or(f64::NAN);
+        Self::of(&self.map, (x, y), &NEVER, cost)
+    }
+
+    /// The map: which cells are blocked.
+    #[must_use]
+    pub const fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The cost of a cell a unit of length; `None` for a blocked cell and outside the map. Costs that are not
+    /// integers are kept in 32 bits, rounded by 2⁻³² of the greatest at most.
+    #[must_use]
+    pub fn cost(&self, cell: impl Into<Vertex>) -> Option<f64> {
+        let Vertex { x, y } = cell.into();
+        self.surface.cost(u32::try_from(x).ok()?, u32::try_from(y).ok()?)
+    }
+
+    /// The least and the greatest cost of the map; after edits, those of the map that it was edited from, as
+    /// long as all costs are between them.
+    #[must_use]
+    pub fn bounds(&self) -> (f64, f64) {
+        self.surface.bounds()
+    }
+
+    /// The width and the height of a cell.
+    #[must_use]
+    pub fn cell_size(&self) -> (f64, f64) {
+        self.surface.cell_size()
+    }
+
+    /// The same costs, but those of some cells: of each its new cost, or `None` for a wall. The last word on
+    /// a cell counts. The work follows the cells where the costs stay within the
+    /// [`bounds`](Self::bounds), else it follows the map.
+    ///
+    /// [`Space::edit_costs`] makes a [`Change`](crate::Change), which indexes, planners and fields follow.
+    ///
+    /// ```
+    /// use mediant::Map;
+    ///
+    /// let costs = Map::new(3, 1)?.costs([1, 5, 1])?.edit_cells([((1, 0), Some(2.0)), ((2, 0), None)])?;
+    /// assert_eq!((costs.cost((1, 0)), costs.cost((2, 0))), (Some(2.0), None));
+    /// assert!(costs.map().is_blocked((2, 0)));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::EditCell`] for a cell outside the map; [`Error::Costs`] as for [`Map::costs`].
+    pub fn edit_cells<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, Option<f64>)>,
+    ) -> Result<Self, Error> {
+        let cells = self.map.check_cells(cells)?;
+        let surface = Arc::new(self.surface.edit(cells.iter().copied())?);
+        let map = self.map.edit_cells(cells.into_iter().map(|(x, y, cost)| ((x, y), cost.is_none())))?;
+        Ok(Self { map, surface })
+    }
+
+    /// These costs with rules of motion and a k, from 2 to 8.
+    ///
+    /// # Errors
+    /// [`Error::K`] for a number that is no k, [`SetupError::CostsK`](crate::errors::SetupError::CostsK) for
+    /// another k.
+    pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
+        Space::of_costs(self, motion.into(), &NEVER)
+    }
+
+    /// The identity: the same for costs with the same cells, costs and bounds. It is none of a map's.
+    #[must_use]
+    pub fn id(&self) -> MapId {
+        self.surface.id()
+    }
+
+    /// The surface, for the typed crate `mediant-costs`.
+    #[must_use]
+    pub const fn surface(&self) -> &Arc<CostMap> {
+        &self.surface
+    }
+}
+
+/// The bytes of a cell while costs are read.
+const BYTES: u64 = (size_of::<f64>() + size_of::<u32>()) as u64;
+
+/// Costs with the same cells, costs and bounds are one.
+impl PartialEq for Costs {
+    fn eq(&self, other: &Self) -> bool {
+        self.surface == other.surface
+    }
+}
+
+impl fmt::Debug for Costs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Costs")
+            .field("id", &self.id())
+            .field("bounds", &self.bounds())
+            .finish_non_exhaustive()
+    }
+}

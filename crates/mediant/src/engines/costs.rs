@@ -1,0 +1,114 @@
+//! A* and Dijkstra's algorithm on costs of cells.
+
+use std::sync::Arc;
+
+use mediant_costs::{CostAStar, CostGraph};
+use mediant_grid::{Identity, Interrupt, Vertex};
+use mediant_search::{End, Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus};
+
+use super::{Boxed, EngineIndex, boxed, following, shared};
+use crate::{
+    change::Change, configured::ConfiguredEngine, error::Error, option::HeuristicName,
+    setup_error::SetupError, space::Space, surface::Surface,
+};
+
+/// A space with costs, and whether its searches are guided.
+pub(super) struct CostIndex {
+    space: Space,
+    graph: Arc<CostGraph>,
+    is_guided: bool,
+}
+
+impl CostIndex {
+    pub(super) fn new(space: &Space, surface: &Surface, engine: ConfiguredEngine) -> Result<Self, Error> {
+        let is_guided = match engine {
+            ConfiguredEngine::AStar(own) => match own.heuristic.unwrap_or_default() {
+                HeuristicName::Hk => true,
+                HeuristicName::Zero => false,
+                _ => return Err(SetupError::HEURISTIC_ON_COSTS.into()),
+            },
+            ConfiguredEngine::Dijkstra => false,
+            _ => return Err(SetupError::on_costs(engine.kind()).into()),
+        };
+        Ok(Self { space: space.clone(), graph: Arc::clone(&surface.graph), is_guided })
+    }
+}
+
+impl EngineIndex for CostIndex {
+    fn search(&self) -> Result<Boxed, Error> {
+        let graph = Arc::clone(&self.graph);
+        let search = if self.is_guided { CostAStar::new(graph) } else { CostAStar::dijkstra(graph) };
+        Ok(boxed(CostSearch { search, space: self.space.clone(), is_apart: true }))
+    }
+
+    fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
+        following(search, |search: &mut CostSearch| {
+            search.search.follow(Arc::clone(&self.graph));
+            (search.space, search.is_apart) = (self.space.clone(), true);
+            Ok::<_, Error>(())
+        })
+    }
+
+    fn scratch_bytes(&self) -> usize {
+        CostAStar::scratch_bytes(&self.graph)
+    }
+
+    fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let Some(surface) = self.space.surface() else { return Ok(None) };
+        shared(Self::new(&self.space, surface, engine)).map(Some)
+    }
+
+    fn repaired(&self, change: &Change, _: &Interrupt) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
+        let space = change.after().clone();
+        let graph = space.surface().map(|surface| Arc::clone(&surface.graph));
+        graph.map(|graph| shared(Ok(Self { space, graph, is_guided: self.is_guided }))).transpose()
+    }
+}
+
+/// A search on costs that knows from the connected components whether there is a way.
+struct CostSearch {
+    search: CostAStar,
+    space: Space,
+    /// Whether there is no way between the ends that were asked for last.
+    is_apart: bool,
+}
+
+impl Planner for CostSearch {
+    fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        self.is_apart = true;
+        self.space.check_end(End::Start, query.start)?;
+        self.space.check_end(End::Goal, query.goal)?;
+        if !self.space.connected(query.start, query.goal) {
+            return Ok(SearchStatus::Unreachable);
+        }
+        self.is_apart = false;
+        self.search.begin(query, observer)
+    }
+
+    fn begin_from(
+        &mut self,
+        starts: &[Vertex],
+        goal: Vertex,
+        observer: &mut impl Observer,
+    ) -> Option<SearchStatus> {
+        let status = self.search.begin_from(starts, goal, observer);
+        self.is_apart &= status.is_none();
+        status
+    }
+
+    fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
+        if self.is_apart { Ok(SearchStatus::Unreachable) } else { self.search.proceed(observer) }
+    }
+
+    fn path_to(&mut self, at: Vertex) -> Option<Path> {
+        if self.is_apart { None } else { self.search.path_to(at) }
+    }
+
+    fn guarantee(&self) -> Guarantee {
+        self.search.guarantee()
+    }
+
+    fn identity(&self) -> Identity {
+        self.search.identity()
+    }
+}

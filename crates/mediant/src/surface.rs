@@ -1,0 +1,147 @@
+//! The cost surface of a space whose cells have costs.
+
+use std::sync::Arc;
+
+use mediant_grid::Interrupt;
+use mediant_search::{Path, PathCosts};
+
+#[cfg(not(feature = "costs"))]
+pub(crate) use self::absent::Surface;
+#[cfg(feature = "costs")]
+pub(crate) use self::given::Surface;
+use crate::{error::Error, motion::Motion, setup::Setup, setup_error::SetupError, space::Space};
+
+#[cfg(feature = "costs")]
+mod given {
+    use std::sync::Arc;
+
+    use mediant_costs::CostGraph;
+    use mediant_grid::Identity;
+    use mediant_search::{Path, PathCosts};
+
+    use crate::{costs::Costs, error::Error};
+
+    /// Costs of cells, and their search graph.
+    #[derive(Clone, Debug)]
+    pub(crate) struct Surface {
+        pub(crate) costs: Costs,
+        pub(crate) graph: Arc<CostGraph>,
+    }
+
+    impl Surface {
+        /// The same rules and k on other costs.
+        pub(crate) fn after(&self, costs: Costs) -> Result<Self, Error> {
+            let graph = Arc::new(self.graph.after(Arc::clone(costs.surface()))?);
+            Ok(Self { costs, graph })
+        }
+
+        pub(crate) fn identity(&self) -> Identity {
+            self.graph.identity()
+        }
+
+        pub(crate) fn memory_bytes(&self) -> usize {
+            self.graph.map().memory_bytes() + self.graph.memory_bytes()
+        }
+
+        pub(crate) fn path_costs(&self) -> Arc<dyn PathCosts> {
+            Arc::<CostGraph>::clone(&self.graph)
+        }
+
+        pub(crate) fn cost(&self, path: &Path) -> Option<f64> {
+            self.graph.path_cost(path).map(|cost| self.graph.to_f64(cost))
+        }
+    }
+}
+
+#[cfg(not(feature = "costs"))]
+mod absent {
+    use std::sync::Arc;
+
+    use mediant_grid::Identity;
+    use mediant_search::{Path, PathCosts};
+
+    /// Without the feature `costs` no space has a surface.
+    #[derive(Clone, Debug)]
+    pub(crate) enum Surface {}
+
+    impl Surface {
+        pub(crate) fn identity(&self) -> Identity {
+            match *self {}
+        }
+
+        pub(crate) fn memory_bytes(&self) -> usize {
+            match *self {}
+        }
+
+        pub(crate) fn path_costs(&self) -> Arc<dyn PathCosts> {
+            match *self {}
+        }
+
+        pub(crate) fn cost(&self, _: &Path) -> Option<f64> {
+            match *self {}
+        }
+    }
+}
+
+impl Space {
+    /// Whether its cells have costs.
+    pub(crate) fn has_costs(&self) -> bool {
+        self.surface().is_some()
+    }
+
+    /// The cost of a path over N(k) in this space: its length, but where cells have costs the cost by these.
+    /// `None` if the path has no cost by them, since one of its moves is not legal or none of N(k).
+    ///
+    /// A [rest](Path::rest) of a path has to be measured so, and so has a path after an edit of costs.
+    #[must_use]
+    pub fn cost(&self, path: &Path) -> Option<f64> {
+        match self.surface() {
+            Some(surface) => surface.cost(path),
+            None => Some(path.length()),
+        }
+    }
+
+    /// A path with its cost in this space. One without a cost costs more than any other.
+    pub(crate) fn measured(&self, path: Path) -> Path {
+        match self.surface() {
+            Some(surface) => {
+                let cost = surface.cost(&path).unwrap_or(f64::INFINITY);
+                Path::with_cost(path.into_waypoints(), cost)
+            }
+            None => path,
+        }
+    }
+
+    /// The costs of its paths, where they are not lengths.
+    pub(crate) fn path_costs(&self) -> Option<Arc<dyn PathCosts>> {
+        self.surface().map(|surface| surface.path_costs())
+    }
+
+    /// Checks that a setup is one for this space.
+    pub(crate) fn check_setup(&self, setup: &Setup) -> Result<(), SetupError> {
+        if self.has_costs() {
+            let engine = setup.engine.kind();
+            if !engine.capabilities().costs {
+                return Err(SetupError::on_costs(engine));
+            }
+            if setup.smoothing.is_some() {
+                return Err(SetupError::SMOOTHING_ON_COSTS);
+            }
+        }
+        setup.check()
+    }
+
+    /// Refuses what there is not on costs of cells.
+    pub(crate) fn check_is_without_costs(&self, refused: SetupError) -> Result<(), SetupError> {
+        if self.has_costs() { Err(refused) } else { Ok(()) }
+    }
+
+    /// The space of the same map, or the same costs, with another motion.
+    pub(crate) fn with_motion(&self, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
+        #[cfg(feature = "costs")]
+        if let Some(surface) = self.surface() {
+            return Self::of_costs(&surface.costs, motion, interrupt);
+        }
+        Self::new(self.map(), motion, interrupt)
+    }
+}
