@@ -150,9 +150,12 @@ impl Change {
             return Err(Error::Freed { cell: Vertex::new(x as i32, y as i32) });
         }
         #[cfg(feature = "costs")]
-        return self.with_edits(
-            last.into_iter().filter(|&(_, blocked)| blocked).map(|((x, y), _)| (x, y, None)).collect(),
-        );
+        {
+            let is_new =
+                |&((x, y), blocked): &((u32, u32), bool)| blocked && grid.is_free(x as i32, y as i32);
+            let new = last.into_iter().filter(is_new).map(|((x, y), _)| (x, y, None)).collect();
+            self.with_edits(new)
+        }
         #[cfg(not(feature = "costs"))]
         Ok(self)
     }

@@ -2,6 +2,7 @@
 
 mod calls;
 mod catalog;
+mod costs;
 mod dead_ends;
 mod described;
 mod door;
