@@ -163,6 +163,9 @@ impl CostGraph {
     /// is not legal. (It is not asked whether the path passes a closed gap.)
     #[must_use]
     pub fn path_cost(&self, path: &Path) -> Option<Cost> {
+        if !self.is_on(path) {
+            return None;
+        }
         steps(path).try_fold(Cost::ZERO, |cost, (from, v)| Some(cost + self.move_cost(from, v)?))
     }
 
@@ -192,6 +195,9 @@ impl CostGraph {
     #[must_use]
     pub fn crossings(&self, path: &Path) -> Vec<((u32, u32), f64)> {
         let mut crossings: Vec<((u32, u32), f64)> = Vec::new();
+        if !self.is_on(path) {
+            return crossings;
+        }
         for (from, v) in steps(path) {
             let Some((at, of)) = self.position(from).zip(self.known_move(v)) else { return Vec::new() };
             if self.scanner.sum(self.map.weights(), at, of).is_none() {
@@ -205,6 +211,11 @@ impl CostGraph {
             }
         }
         crossings
+    }
+
+    /// Whether all waypoints are free. Others may be so far apart that no difference of coordinates holds.
+    fn is_on(&self, path: &Path) -> bool {
+        path.waypoints().iter().all(|&at| self.is_free(at))
     }
 
     fn known_move(&self, v: Vector) -> Option<&Move> {

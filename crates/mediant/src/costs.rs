@@ -38,17 +38,17 @@ impl Map {
     /// use mediant::{Map, Motion};
     ///
     /// let map = Map::from_rows(["....", ".##.", "...."])?;
-    /// // A road of cost 1 at the bottom, through land of cost 3.
+    /// // A road of cost 1 at the bottom, through land of cost 5.
     /// let costs = map.costs([
-    ///     3, 3, 3, 3, //
+    ///     5, 5, 5, 5, //
     ///     1, 0, 0, 1, //
     ///     1, 1, 1, 1,
     /// ])?;
     /// let space = costs.space(Motion::centers(3))?;
     /// let path = space.path((0, 0), (3, 0))?.expect("there is a way");
-    /// assert_eq!((path.cost(), path.length()), (9.0, 7.0));
+    /// assert_eq!((path.cost(), path.length()), (11.0, 7.0));
     /// let field = space.field([(3, 2)])?;
-    /// assert_eq!(field.get((0, 0)), Some(6.0));
+    /// assert_eq!(field.get((0, 0)), Some(7.0));
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///
@@ -176,6 +176,14 @@ impl Costs {
     /// another k.
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::of_costs(self, motion.into(), &NEVER)
+    }
+
+    /// The unit of the integers in which searches count costs, a power of two: an
+    /// [`Observer`](crate::search::Observer) is told [`Cost`](crate::Cost)s of which
+    /// [`to_bits`](crate::Cost::to_bits) has the number of units.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.surface.unit()
     }
 
     /// The identity: the same for costs with the same cells, costs and bounds. It is none of a map's.

@@ -117,6 +117,12 @@ impl Space {
         self.surface().map(|surface| surface.path_costs())
     }
 
+    /// A cost of a search in this space as a number.
+    #[cfg(feature = "trace")]
+    pub(crate) fn to_f64(&self, cost: mediant_moves::Cost) -> f64 {
+        self.path_costs().map_or_else(|| cost.to_f64(), |costs| cost.to_bits() as f64 * costs.unit())
+    }
+
     /// Checks that a setup is one for this space.
     pub(crate) fn check_setup(&self, setup: &Setup) -> Result<(), SetupError> {
         if self.has_costs() {

@@ -4,7 +4,10 @@ use std::io::{self, Write};
 
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 use mediant_grid::{Grid, PlacementKind, Vertex};
+use mediant_moves::Cost;
 use mediant_search::{Answer, Ends, NodeEvent, Observer, Path};
+
+use crate::space::Space;
 
 /// Writes the events of one search for the Posthoc visualizer, as an observer of that search or of one that
 /// was kept. First the search is made, since the trace [begins](Self::begin) with the ends of its path.
@@ -31,6 +34,8 @@ pub struct Tracer<'g, W: Write> {
     trace: TraceWriter<'g, W>,
     /// The number of vertices in a row, and of rows.
     size: (u32, u32),
+    /// The space, if its cells have costs.
+    space: Option<Space>,
     /// The vertex that is being expanded.
     open: Option<TraceEvent>,
     /// The first error of the writer, after which nothing is written.
@@ -46,7 +51,14 @@ impl<'g, W: Write> Tracer<'g, W> {
         let more = u32::from(placement == PlacementKind::Corner);
         let size = (grid.width() + more, grid.height() + more);
         let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
-        Ok(Self { trace, size, open: None, written: Ok(()) })
+        Ok(Self { trace, size, space: None, open: None, written: Ok(()) })
+    }
+
+    /// The same for a search in this space, whose cells may have costs: costs are written as numbers of its
+    /// own, and not as lengths.
+    #[must_use]
+    pub fn in_space(self, space: &Space) -> Self {
+        Self { space: Some(space.clone()).filter(Space::has_costs), ..self }
     }
 
     /// Writes the start and the goal: those of the path, if found. An end outside the map has no event.
@@ -72,7 +84,7 @@ impl<'g, W: Write> Tracer<'g, W> {
         let mut last: Option<(TraceEvent, Vertex)> = None;
         for &at in answer.and_then(path_of).map_or(&[][..], Path::waypoints) {
             let (parent, g) = last.map_or((None, 0.0), |(event, from)| {
-                (Some(event.id), event.g.unwrap_or(0.0) + from.distance(at))
+                (Some(event.id), event.g.unwrap_or(0.0) + self.between(from, at))
             });
             let event = TraceEvent { parent, g: Some(g), ..self.at(at) };
             self.write(TraceEventKind::End, &event);
@@ -99,7 +111,17 @@ impl<'g, W: Write> Tracer<'g, W> {
     /// An event of a node of the search.
     fn node(&self, node: NodeEvent) -> TraceEvent {
         let parent = node.parent.map(|parent| self.at(parent).id);
-        TraceEvent { parent, f: Some(node.f.to_f64()), g: Some(node.g.to_f64()), ..self.at(node.at) }
+        TraceEvent { parent, f: Some(self.number(node.f)), g: Some(self.number(node.g)), ..self.at(node.at) }
+    }
+
+    fn number(&self, cost: Cost) -> f64 {
+        self.space.as_ref().map_or_else(|| cost.to_f64(), |space| space.to_f64(cost))
+    }
+
+    /// The cost of a segment of a path.
+    fn between(&self, from: Vertex, to: Vertex) -> f64 {
+        let cost = self.space.as_ref().and_then(|space| space.cost(&Path::new(vec![from, to])));
+        cost.unwrap_or_else(|| from.distance(to))
     }
 
     /// Writes an event, unless an error came before.

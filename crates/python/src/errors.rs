@@ -15,7 +15,11 @@ use pyo3::{
 /// The class of the exception for a kind of mistake.
 const fn class(code: ErrorCode) -> &'static str {
     match code {
-        ErrorCode::MapSize | ErrorCode::MapRagged | ErrorCode::MapTile | ErrorCode::EditOutside => "MapError",
+        ErrorCode::MapSize
+        | ErrorCode::MapRagged
+        | ErrorCode::MapTile
+        | ErrorCode::EditOutside
+        | ErrorCode::Cost => "MapError",
         ErrorCode::K
         | ErrorCode::Motion
         | ErrorCode::UnknownName

@@ -224,7 +224,8 @@ impl Planner {
         self.search.distance(ends)
     }
 
-    /// Answers a query and reports the events of the search.
+    /// Answers a query and reports the events of the search. Where cells have costs, events count these in
+    /// units (`Costs::unit`).
     ///
     /// # Errors
     /// As for [`find`](Self::find).

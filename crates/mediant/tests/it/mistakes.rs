@@ -42,6 +42,8 @@ fn in_maps_and_queries() -> Vec<Mistake> {
         (Code::MapRagged, Map::from_rows(["..", "..."]).map(drop)),
         (Code::MapRagged, Map::from_bits(3, [true; 7]).map(drop)),
         (Code::MapTile, Map::from_rows([".x"]).map(drop)),
+        (Code::Cost, Map::new(2, 1).and_then(|map| map.costs([1.0, 0.0])).map(drop)),
+        (Code::Cost, Map::new(2, 1).and_then(|map| map.costs([1_u8])).map(drop)),
         (Code::MapFormat, Map::open("Cargo.toml").map(drop)),
         (Code::FileMissing, Map::open("no such file").map(drop)),
         (Code::FileUnreadable, Map::open(".").map(drop)),
@@ -144,7 +146,7 @@ fn codes_keep_their_names() {
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine file-missing file-unreadable \
          file-unwritable map-format scenario-format no-end number not-begun memory cancelled \
-         stopped argument broken-path map-tile other"
+         stopped argument broken-path map-tile cost other"
     );
 }
 
