@@ -2,17 +2,22 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Vertex, VertexId};
+use mediant_grid::{Identity, Mismatch, Vertex, VertexId};
 use mediant_moves::Cost;
 use mediant_search::{
     End, Ends, Guarantee, NodeEvent, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{Entry, Node, NodeStore, OpenList},
 };
 
-use crate::{graph::CostGraph, scan::Visit};
+use crate::{
+    graph::CostGraph,
+    landmarks::{Landmarks, Numbers},
+    scan::Visit,
+};
 
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
-/// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm.
+/// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm. With [`Landmarks`] the
+/// heuristic is the greatest of h_k and of their bounds.
 ///
 /// The cost of its paths, [`Path::cost`], is that on the surface; their length is [`Path::length`]. Observers
 /// are told costs in units of the map ([`CostGraph::to_f64`]).
@@ -45,8 +50,39 @@ pub struct CostAStar {
     search: Nodes,
     starts: Vec<usize>,
     goal: Goal,
-    is_guided: bool,
+    guide: Guide,
     status: SearchStatus,
+}
+
+/// The heuristic.
+#[derive(Debug)]
+enum Guide {
+    Zero,
+    LeastCost,
+    Landmarks {
+        landmarks: Arc<Landmarks>,
+        /// Those of the goal.
+        numbers: Box<Numbers>,
+    },
+}
+
+impl Guide {
+    fn by(landmarks: Arc<Landmarks>, graph: &CostGraph) -> Result<Self, Mismatch> {
+        landmarks.identity().check_equal("the landmarks", ("the graph", graph.identity()))?;
+        Ok(Self::Landmarks { landmarks, numbers: Box::default() })
+    }
+
+    /// The lower bound of the cost from a state to the goal.
+    #[inline]
+    fn bound(&self, graph: &CostGraph, (at, state): (Vertex, usize), goal: Goal) -> Cost {
+        match self {
+            Self::Zero => Cost::ZERO,
+            Self::LeastCost => graph.least_cost(at.to(goal.at)),
+            Self::Landmarks { landmarks, numbers } => {
+                graph.least_cost(at.to(goal.at)).max(landmarks.bound(state, numbers))
+            }
+        }
+    }
 }
 
 /// The memory of a search.
@@ -70,14 +106,23 @@ impl CostAStar {
         let search = Nodes { nodes: NodeStore::new(graph.states()), open: OpenList::default() };
         let goal = Goal { at: Vertex::default(), state: 0 };
         let status = SearchStatus::default();
-        Self { graph, search, starts: Vec::new(), goal, is_guided: true, status }
+        Self { graph, search, starts: Vec::new(), goal, guide: Guide::LeastCost, status }
     }
 
     /// Dijkstra's algorithm (1959). For the costs of all vertices, [`CostField`](crate::CostField) is much
     /// faster.
     #[must_use]
     pub fn dijkstra(graph: Arc<CostGraph>) -> Self {
-        Self { is_guided: false, ..Self::new(graph) }
+        Self { guide: Guide::Zero, ..Self::new(graph) }
+    }
+
+    /// A planner that is guided by landmarks, too.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for the landmarks of another graph.
+    pub fn with_landmarks(graph: Arc<CostGraph>, landmarks: Arc<Landmarks>) -> Result<Self, Mismatch> {
+        let guide = Guide::by(landmarks, &graph)?;
+        Ok(Self { guide, ..Self::new(graph) })
     }
 
     /// The bytes of scratch memory that a planner for a graph takes when it is made.
@@ -87,13 +132,29 @@ impl CostAStar {
     }
 
     /// Continues with another graph: that of a surface after an edit. The search that was begun last is
-    /// forgotten. The scratch memory is kept if the graph has as many vertices.
+    /// forgotten, and so are landmarks of another graph. The scratch memory is kept if the graph has as many
+    /// vertices.
     pub fn follow(&mut self, graph: Arc<CostGraph>) {
+        if let Guide::Landmarks { landmarks, .. } = &self.guide
+            && landmarks.identity() != graph.identity()
+        {
+            self.guide = Guide::LeastCost;
+        }
         self.search.nodes.fit(graph.states());
         self.search.open.clear();
         self.starts.clear();
         self.status = SearchStatus::default();
         self.graph = graph;
+    }
+
+    /// [`follow`](Self::follow) with landmarks of the other graph, such as [`Landmarks::repaired`] ones.
+    ///
+    /// # Errors
+    /// [`Mismatch`] for those of another one; then nothing has changed.
+    pub fn follow_with(&mut self, graph: Arc<CostGraph>, landmarks: Arc<Landmarks>) -> Result<(), Mismatch> {
+        self.guide = Guide::by(landmarks, &graph)?;
+        self.follow(graph);
+        Ok(())
     }
 
     /// The search graph.
@@ -104,12 +165,15 @@ impl CostAStar {
 
     fn begin_at(&mut self, observer: &mut impl Observer) {
         self.status = SearchStatus::Searching;
-        let Self { graph, search: Nodes { nodes, open }, starts, goal, is_guided, .. } = self;
+        let Self { graph, search: Nodes { nodes, open }, starts, goal, guide, .. } = self;
+        if let Guide::Landmarks { landmarks, numbers } = guide {
+            **numbers = landmarks.numbers(goal.state);
+        }
         nodes.start_search();
         open.clear();
         for &start in &*starts {
             let (at, id) = (graph.vertex(start), id(start));
-            let h = if *is_guided { graph.least_cost(at.to(goal.at)) } else { Cost::ZERO };
+            let h = guide.bound(graph, (at, start), *goal);
             nodes.set_path(id, Cost::ZERO, 0, ());
             observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
             open.push(Entry::new(h, h, id), |id, slot| nodes.set_slot(id, slot));
@@ -119,8 +183,8 @@ impl CostAStar {
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses. `K` and
     /// `CENTER` are those of a scan.
     fn run<const K: u32, const CENTER: bool>(&mut self, observer: &mut impl Observer) -> SearchStatus {
-        let Self { graph, search, goal, is_guided, .. } = self;
-        let (graph, goal, is_guided): (&CostGraph, Goal, bool) = (graph, *goal, *is_guided);
+        let Self { graph, search, goal, guide, .. } = self;
+        let (graph, goal, guide): (&CostGraph, Goal, &Guide) = (graph, *goal, guide);
         let (scanner, weights) = (graph.scanner(), graph.map().weights());
         let goal_id = id(goal.state);
         while search.open.get(0).is_none_or(|best| best.id() == goal_id || !observer.pauses(best.f())) {
@@ -142,7 +206,7 @@ impl CostAStar {
             if graph.end(at) == Some(state) {
                 observer.reached(at, node.g);
             }
-            let mut relaxing = Relaxing { graph, goal, is_guided, at, weights, nodes, open, observer };
+            let mut relaxing = Relaxing { graph, goal, guide, at, weights, nodes, open, observer };
             scanner.scan::<K, CENTER>(weights, (state, node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
@@ -157,7 +221,7 @@ fn id(state: usize) -> VertexId {
 struct Relaxing<'s, O> {
     graph: &'s CostGraph,
     goal: Goal,
-    is_guided: bool,
+    guide: &'s Guide,
     /// The node.
     at: Vertex,
     weights: &'s [u32],
@@ -192,7 +256,7 @@ impl<O: Observer> Visit for Relaxing<'_, O> {
             }
             // A closed node is reopened: the heuristic is consistent, so this does not happen.
             _ => {
-                let h = if self.is_guided { self.graph.least_cost(at.to(self.goal.at)) } else { Cost::ZERO };
+                let h = self.guide.bound(self.graph, (at, to), self.goal);
                 (g + h, open.push(Entry::new(g + h, h, to_id), moved))
             }
         };

@@ -48,6 +48,16 @@ impl Gaps {
         self.positions.binary_search(&(at as u32)).ok()
     }
 
+    /// The upper state of a gap; `None` at other positions.
+    pub(crate) fn upper(&self, at: usize) -> Option<usize> {
+        if self.is_empty() { None } else { Some(self.len + self.number(at)?) }
+    }
+
+    /// Whether both have the same states.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        self.positions == other.positions
+    }
+
     /// The position of a state.
     #[inline]
     pub(crate) fn position(&self, state: usize) -> usize {

@@ -245,6 +245,19 @@ impl CostMap {
         Ok(Self { weights: edit.finish(), id, ..*self })
     }
 
+    /// The identity of this surface with these cells as they are on another one, of the same size and units.
+    pub(crate) fn id_with(&self, cells: &[(u32, u32)], other: &Self) -> MapId {
+        let is_on = |x, y| x < self.width() && y < self.height();
+        let on = cells.iter().filter(|&&(x, y)| is_on(x, y));
+        let mut pairs: Vec<usize> = on.map(|&(x, y)| self.layout.position(x as i32, y as i32) / 2).collect();
+        pairs.sort_unstable();
+        pairs.dedup();
+        let pair = |weights: &[u32], at: usize| word(weights[2 * at], weights[2 * at + 1]);
+        pairs.into_iter().fold(self.id, |id, at| {
+            id.with_term(at as u64, [pair(&self.weights, at), pair(&other.weights, at)])
+        })
+    }
+
     /// This surface with other costs, in units of their own.
     fn anew(&self, cells: &[(u32, u32, Option<f64>)]) -> Result<Self, CostsError> {
         let mut changed = std::collections::BTreeMap::new();

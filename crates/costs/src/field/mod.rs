@@ -202,7 +202,7 @@ impl CostField {
     }
 
     /// The cost of a state that is in the field.
-    fn known(&self, state: usize) -> Option<u64> {
+    pub(crate) fn known(&self, state: usize) -> Option<u64> {
         self.costs.get(state).copied().filter(|&cost| cost != NONE)
     }
 

@@ -4,6 +4,7 @@ mod common;
 mod costmaps;
 mod edits;
 mod fields;
+mod landmarks;
 mod paths;
 mod refused;
 mod robots;

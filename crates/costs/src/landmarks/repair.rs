@@ -1,0 +1,185 @@
+//! Landmarks after an edit.
+
+use std::{cmp::Reverse, collections::BinaryHeap, sync::Arc};
+
+use mediant_grid::{Identity, Interrupt};
+
+use super::{
+    Landmarks, NONE,
+    error::LandmarksError,
+    is_blocked,
+    lines::{Lines, LinesEdit},
+    scan,
+};
+use crate::{graph::CostGraph, scan::Visit};
+
+/// A number is lowered in so many times the time that it takes to make it.
+const SLOWNESS: usize = 8;
+
+impl Landmarks {
+    /// The landmarks of a graph after an edit of its surface; `cells` are the cells that changed, and others
+    /// as one likes.
+    ///
+    /// - Where costs rose and cells were closed, the old numbers remain: no work beyond the cells. The bounds
+    ///   are then less close than new ones would be, the more so the more has changed.
+    /// - Where costs fell and cells were opened, numbers are lowered as far as the edit makes paths cheaper.
+    /// - Where that would take longer, or the surface has other units, the landmarks are made anew.
+    ///
+    /// The bounds are consistent in each case, and paths the cheapest.
+    ///
+    /// # Errors
+    /// [`LandmarksError::Mismatch`] if `before` is not the landmarks' graph, `after` has other rules or
+    /// another k, or other cells changed than these; [`LandmarksError::Interrupted`].
+    pub fn repaired(
+        &self,
+        before: &CostGraph,
+        after: &Arc<CostGraph>,
+        cells: &[(u32, u32)],
+        interrupt: &Interrupt,
+    ) -> Result<Self, LandmarksError> {
+        self.identity.check_equal("the landmarks", ("the graph before", before.identity()))?;
+        let every_map = Identity { map: None, ..self.identity };
+        every_map.check("the landmarks", ("the graph", after.identity()))?;
+        if before.map().scale() != after.map().scale() || before.size() != after.size() {
+            return Self::new(after, self.count(), interrupt);
+        }
+        let changed = Identity { map: Some(before.map().id_with(cells, after.map())), ..self.identity };
+        changed.check_equal("the change", ("the graph", after.identity()))?;
+        let mut lines = Arc::clone(&self.lines);
+        if !before.scanner().gaps.is_same_as(&after.scanner().gaps) {
+            lines = Arc::new(with_gaps(&lines, before, after));
+        }
+        let seeds = lowered(before, after, cells);
+        if !seeds.is_empty() {
+            let most = lines.states().saturating_mul(lines.count()) / SLOWNESS;
+            if seeds.len().saturating_mul(self.count()) > most {
+                return Self::new(after, self.count(), interrupt);
+            }
+            let (graph, shift, lines_after) = (after.as_ref(), self.shift, lines.edit());
+            let mut lowering =
+                Lowering { graph, lines: lines_after, shift, slot: 0, open: BinaryHeap::new() };
+            if !lowering.run(&seeds, (self.count(), most), interrupt)? {
+                return Self::new(after, self.count(), interrupt);
+            }
+            lines = Arc::new(lowering.lines.finish());
+        }
+        Ok(Self { identity: after.identity(), lines, shift: self.shift })
+    }
+}
+
+/// The numbers for the gaps of another surface. A corner that became a gap has its number in both states. One
+/// that was a gap has that of the quadrant from which it still can be reached, or the lesser of both.
+fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Lines {
+    let (old, new) = (&before.scanner().gaps, &after.scanner().gaps);
+    let mut resized = lines.resized(after.states());
+    let mut numbers = resized.writer();
+    for at in old.positions().filter(|&at| new.upper(at).is_none()) {
+        let steps = before.scanner().steps.from(at);
+        let cells: [(i8, i8); 2] =
+            if before.map().weights()[at] > 0 { [(0, 0), (-1, -1)] } else { [(-1, 0), (0, -1)] };
+        let states = [Some(at), old.upper(at)];
+        let reached = cells
+            .into_iter()
+            .zip(states)
+            .filter(|&((dx, dy), _)| after.map().weights()[steps.to(dx, dy)] > 0);
+        let rows = || reached.clone().filter_map(|(_, state)| Some(lines.row(state?)));
+        for (slot, to) in numbers.row_mut(at).iter_mut().enumerate() {
+            *to = rows().map(|row| row[slot]).min().unwrap_or(NONE);
+        }
+    }
+    for at in new.positions() {
+        if let Some(upper) = new.upper(at) {
+            numbers.row_mut(upper).copy_from_slice(lines.row(old.upper(at).unwrap_or(at)));
+        }
+    }
+    resized
+}
+
+/// The ends of all moves that may have become cheaper.
+fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Vec<usize> {
+    let layout = after.layout();
+    let reach = after.scanner().moves.all().iter().map(|of| of.vector.x).max().unwrap_or_default();
+    // The corners of a cell lie at it and beyond.
+    let beyond = reach + i32::from(!after.is_center());
+    let (width, height) = after.size();
+    let is_on = |x, y| x < after.map().width() && y < after.map().height();
+    let mut states = Vec::new();
+    for (x, y) in cells.iter().copied().filter(|&(x, y)| is_on(x, y)).map(|(x, y)| (x as i32, y as i32)) {
+        let [was, is] = [before, after].map(|graph| graph.map().weights()[layout.position(x, y)]);
+        if is == 0 || was > 0 && is >= was {
+            continue;
+        }
+        for y in (y - reach).max(0)..=(y + beyond).min(height as i32 - 1) {
+            for x in (x - reach).max(0)..=(x + beyond).min(width as i32 - 1) {
+                let at = layout.position(x, y);
+                states.push(at);
+                states.extend(after.scanner().gaps.upper(at));
+            }
+        }
+    }
+    states.sort_unstable();
+    states.dedup();
+    states.retain(|&state| !is_blocked(after, state));
+    states
+}
+
+/// Lowers the numbers of one landmark after the other.
+struct Lowering<'s> {
+    graph: &'s CostGraph,
+    lines: LinesEdit,
+    shift: u32,
+    slot: usize,
+    open: BinaryHeap<Reverse<(u32, u32)>>,
+}
+
+impl Lowering<'_> {
+    /// Dijkstra's algorithm from seeds. The numbers become the greatest that are right and no greater than
+    /// before. Returns whether it scanned no more states than it may.
+    fn run(
+        &mut self,
+        seeds: &[usize],
+        (count, most): (usize, usize),
+        interrupt: &Interrupt,
+    ) -> Result<bool, LandmarksError> {
+        let graph = self.graph;
+        let mut scanned = 0;
+        for slot in 0..count {
+            self.slot = slot;
+            self.open.clear();
+            self.open
+                .extend(seeds.iter().map(|&state| Reverse((self.lines.number(state, slot), state as u32))));
+            while let Some(Reverse((number, state))) = self.open.pop() {
+                let state = state as usize;
+                if number == NONE || number != self.lines.number(state, slot) {
+                    continue;
+                }
+                if scanned == most {
+                    return Ok(false);
+                }
+                interrupt.check_every(1 << 12, scanned, "repairing the landmarks")?;
+                scanned += 1;
+                scan(graph, (state, u64::from(number) << self.shift), self);
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl Visit for Lowering<'_> {
+    #[inline]
+    fn known(&self, to: usize) -> u64 {
+        if is_blocked(self.graph, to) {
+            return 0;
+        }
+        match self.lines.number(to, self.slot) {
+            NONE => u64::MAX,
+            number => u64::from(number) << self.shift,
+        }
+    }
+
+    fn relax(&mut self, _: usize, to: usize, cost: u64) {
+        let number = (cost >> self.shift).min(u64::from(NONE - 1)) as u32;
+        self.lines.set(to, self.slot, number);
+        self.open.push(Reverse((number, to as u32)));
+    }
+}
