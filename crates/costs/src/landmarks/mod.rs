@@ -95,7 +95,7 @@ impl Rounding {
     }
 
     fn number(self, cost: u64) -> u32 {
-        let product = u128::from(cost) * u128::from(self.factor) >> 64;
+        let product = (u128::from(cost) * u128::from(self.factor)) >> 64;
         product.min(u128::from(NONE - 1)) as u32
     }
 }
