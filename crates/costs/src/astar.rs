@@ -9,11 +9,7 @@ use mediant_search::{
     parts::{Entry, Node, NodeStore, OpenList},
 };
 
-use crate::{
-    graph::CostGraph,
-    landmarks::{Landmarks, Numbers},
-    scan::Visit,
-};
+use crate::{graph::CostGraph, guide::Guide, landmarks::Landmarks, scan::Visit};
 
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 /// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm. With [`Landmarks`] the
@@ -52,37 +48,6 @@ pub struct CostAStar {
     goal: Goal,
     guide: Guide,
     status: SearchStatus,
-}
-
-/// The heuristic.
-#[derive(Debug)]
-enum Guide {
-    Zero,
-    LeastCost,
-    Landmarks {
-        landmarks: Arc<Landmarks>,
-        /// Those of the goal.
-        numbers: Box<Numbers>,
-    },
-}
-
-impl Guide {
-    fn by(landmarks: Arc<Landmarks>, graph: &CostGraph) -> Result<Self, Mismatch> {
-        landmarks.identity().check_equal("the landmarks", ("the graph", graph.identity()))?;
-        Ok(Self::Landmarks { landmarks, numbers: Box::default() })
-    }
-
-    /// The lower bound of the cost from a state to the goal.
-    #[inline]
-    fn bound(&self, graph: &CostGraph, (at, state): (Vertex, usize), goal: Goal) -> Cost {
-        match self {
-            Self::Zero => Cost::ZERO,
-            Self::LeastCost => graph.least_cost(at.to(goal.at)),
-            Self::Landmarks { landmarks, numbers } => {
-                graph.least_cost(at.to(goal.at)).max(landmarks.bound(state, numbers))
-            }
-        }
-    }
 }
 
 /// The memory of a search.
@@ -135,11 +100,7 @@ impl CostAStar {
     /// forgotten, and so are landmarks of another graph. The scratch memory is kept if the graph has as many
     /// vertices.
     pub fn follow(&mut self, graph: Arc<CostGraph>) {
-        if let Guide::Landmarks { landmarks, .. } = &self.guide
-            && landmarks.identity() != graph.identity()
-        {
-            self.guide = Guide::LeastCost;
-        }
+        self.guide.follow(&graph);
         self.search.nodes.fit(graph.states());
         self.search.open.clear();
         self.starts.clear();
@@ -166,14 +127,12 @@ impl CostAStar {
     fn begin_at(&mut self, observer: &mut impl Observer) {
         self.status = SearchStatus::Searching;
         let Self { graph, search: Nodes { nodes, open }, starts, goal, guide, .. } = self;
-        if let Guide::Landmarks { landmarks, numbers } = guide {
-            **numbers = landmarks.numbers(goal.state);
-        }
+        guide.aim(goal.state);
         nodes.start_search();
         open.clear();
         for &start in &*starts {
             let (at, id) = (graph.vertex(start), id(start));
-            let h = guide.bound(graph, (at, start), *goal);
+            let h = guide.bound(graph, (at, start), goal.at);
             nodes.set_path(id, Cost::ZERO, 0, ());
             observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
             open.push(Entry::new(h, h, id), |id, slot| nodes.set_slot(id, slot));
@@ -256,7 +215,7 @@ impl<O: Observer> Visit for Relaxing<'_, O> {
             }
             // A closed node is reopened: the heuristic is consistent, so this does not happen.
             _ => {
-                let h = self.guide.bound(self.graph, (at, to), self.goal);
+                let h = self.guide.bound(self.graph, (at, to), self.goal.at);
                 (g + h, open.push(Entry::new(g + h, h, to_id), moved))
             }
         };

@@ -218,7 +218,7 @@ impl CostGraph {
         path.waypoints().iter().all(|&at| self.is_free(at))
     }
 
-    fn known_move(&self, v: Vector) -> Option<&Move> {
+    pub(crate) fn known_move(&self, v: Vector) -> Option<&Move> {
         self.scanner.moves.all().iter().find(|known| known.vector == v)
     }
 

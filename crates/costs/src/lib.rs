@@ -9,6 +9,8 @@
 //! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
 //!   allocation, directions, paths and corridors.
 //! - [`CostAStar`] finds one path after another; with [`Landmarks`], the index, several times as fast.
+//! - [`CostTheta`] finds paths of straight segments at any angle, none dearer than the least cost over N(k);
+//!   [`smooth`] makes a path one.
 //! - [`Costmap`] is a robot's costmap, with the inflation of nav2.
 //!
 //! **The key decision: costs are integers here, too.** The sum of shares times weights is exact, its product
@@ -27,14 +29,17 @@ mod error;
 mod field;
 mod gaps;
 mod graph;
+mod guide;
 mod landmarks;
 mod layout;
+mod line;
 mod map;
 mod moves;
 #[cfg(doctest)]
 mod readme;
 mod scale;
 mod scan;
+mod theta;
 
 pub use astar::CostAStar;
 pub use costmap::{Costmap, Inflation, Traversal};
@@ -43,3 +48,4 @@ pub use field::{CostField, CostFieldQuery, DirectionCode};
 pub use graph::CostGraph;
 pub use landmarks::{Landmarks, LandmarksError};
 pub use map::CostMap;
+pub use theta::{CostTheta, smooth};

@@ -200,7 +200,7 @@ impl Scanner {
 
     /// Whether the rule of corners allows a move between two cells of these weights.
     #[inline]
-    const fn may_pass(&self, one: u32, other: u32) -> bool {
+    pub(crate) const fn may_pass(&self, one: u32, other: u32) -> bool {
         self.allowed >> ((one > 0) as u8 | ((other > 0) as u8) << 1) & 1 == 1
     }
 

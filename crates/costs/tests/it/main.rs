@@ -8,3 +8,4 @@ mod landmarks;
 mod paths;
 mod refused;
 mod robots;
+mod theta;
