@@ -188,26 +188,35 @@ impl CostGraph {
         self.scanner.moves.memory_bytes() + self.scanner.gaps.len() * size_of::<u32>()
     }
 
-    /// The cells that a path crosses, in their order on the way, each with the length in it, in the unit of
-    /// the cell size: the sum of length · cost is the cost of the path. Of a move along a grid line it is the
-    /// cell whose cost counts. Cells that are touched in a corner alone are left out. Empty for a path with a
-    /// move that is not legal.
+    /// The cells that a path of straight segments crosses, in their order on the way, each with the length in
+    /// it, in the unit of the cell size: the sum of length · cost is the cost of the path. Of a move along a
+    /// grid line it is the cell whose cost counts. Cells that are touched in a corner alone are left out. Empty
+    /// for a path with a segment that is not legal.
     #[must_use]
     pub fn crossings(&self, path: &Path) -> Vec<((u32, u32), f64)> {
         let mut crossings: Vec<((u32, u32), f64)> = Vec::new();
         if !self.is_on(path) {
             return crossings;
         }
-        for (from, v) in steps(path) {
-            let Some((at, of)) = self.position(from).zip(self.known_move(v)) else { return Vec::new() };
-            if self.scanner.sum(self.map.weights(), at, of).is_none() {
+        let mut add = |cell, length| match crossings.last_mut().filter(|(last, _)| *last == cell) {
+            Some((_, known)) => *known += length,
+            None => crossings.push((cell, length)),
+        };
+        for ends in path.waypoints().windows(2).filter(|ends| ends[0] != ends[1]) {
+            let v = primitive(ends[0].to(ends[1])).0;
+            let is_legal = match self.known_move(v) {
+                Some(of) => steps_between(ends[0], ends[1]).all(|(from, _)| {
+                    let at = self.position(from).filter(|&at| self.cost_of(of, at).is_some());
+                    at.is_some_and(|at| {
+                        let crossed = self.scanner.crossed(self.map.as_ref(), at, of);
+                        crossed.for_each(|(cell, length)| add(cell, length));
+                        true
+                    })
+                }),
+                None => self.cells_along(ends[0], ends[1], &mut add),
+            };
+            if !is_legal {
                 return Vec::new();
-            }
-            for (cell, length) in self.scanner.crossed(self.map.as_ref(), at, of) {
-                match crossings.last_mut().filter(|(last, _)| *last == cell) {
-                    Some((_, known)) => *known += length,
-                    None => crossings.push((cell, length)),
-                }
             }
         }
         crossings
@@ -303,10 +312,18 @@ impl PathCosts for CostGraph {
 
 /// The moves of a path over N(k), each with the vertex where it begins.
 fn steps(path: &Path) -> impl Iterator<Item = (Vertex, Vector)> {
-    path.waypoints().windows(2).filter(|ends| ends[0] != ends[1]).flat_map(|ends| {
-        let (from, d) = (ends[0], ends[0].to(ends[1]));
-        let times = d.gcd() as i32;
-        let v = Vector::new(d.x / times, d.y / times);
-        (0..times).map(move |step| (Vertex::new(from.x + step * v.x, from.y + step * v.y), v))
-    })
+    let ends = path.waypoints().windows(2).filter(|ends| ends[0] != ends[1]);
+    ends.flat_map(|ends| steps_between(ends[0], ends[1]))
+}
+
+/// The repetitions of the vector between two vertices, each with the vertex where it begins.
+fn steps_between(from: Vertex, to: Vertex) -> impl Iterator<Item = (Vertex, Vector)> {
+    let (v, times) = primitive(from.to(to));
+    (0..times as i32).map(move |step| (Vertex::new(from.x + step * v.x, from.y + step * v.y), v))
+}
+
+/// The shortest vector of which this one is a multiple, and how many times that is repeated.
+pub(crate) fn primitive(d: Vector) -> (Vector, u32) {
+    let times = d.gcd().max(1);
+    (Vector::new(d.x / times as i32, d.y / times as i32), times)
 }

@@ -10,7 +10,11 @@ use mediant_grid::Vertex;
 use mediant_moves::{Cost, Vector};
 use mediant_search::Path;
 
-use crate::{gaps::is_lower, graph::CostGraph, moves::Move};
+use crate::{
+    gaps::is_lower,
+    graph::{CostGraph, primitive},
+    moves::Move,
+};
 
 /// A segment while it is walked.
 struct Walk<'g> {
@@ -63,13 +67,31 @@ impl CostGraph {
         if d == Vector::new(0, 0) {
             return Some(0);
         }
-        let times = d.gcd();
-        let v = Vector::new(d.x / times as i32, d.y / times as i32);
+        let (v, times) = primitive(d);
         let walk = Walk { graph: self, v, times };
         match self.known_move(v) {
             Some(of) => walk.of_moves(from, of, limit),
             None => walk.at_any_angle(from, limit),
         }
+    }
+
+    /// Tells the cells that a segment crosses whose vector is no move of N(k), each with the length in it.
+    /// Returns whether it is legal.
+    pub(crate) fn cells_along(&self, from: Vertex, to: Vertex, mut add: impl FnMut((u32, u32), f64)) -> bool {
+        let (v, times) = primitive(from.to(to));
+        let walk = Walk { graph: self, v, times };
+        let (dx, dy) = v.abs();
+        let (dx, dy) = (u64::from(dx), u64::from(dy));
+        let shares = if self.is_center() { 2 * dx * dy } else { dx * dy };
+        let share_length = self.map().scale().length(v) / shares as f64;
+        (0..times).all(|time| {
+            let at = walk.after(from, time);
+            (time == 0 || !walk.is_gap(at))
+                && walk.repetition(at, (dx, dy), |(x, y), _, share| {
+                    add((x as u32, y as u32), share as f64 * share_length);
+                    true
+                })
+        })
     }
 
     /// [`line`](Self::line) between two states, which at closed gaps is to lie in their quadrants.
@@ -126,16 +148,22 @@ impl Walk<'_> {
         let mut sum = Sum { sum: 0, least: scale.least.into(), rest: shares, most };
         for time in 0..self.times {
             let at = self.after(from, time);
-            if time > 0 && self.is_gap(at) || !self.repetition(at, (dx, dy), &mut sum) {
+            let add = |_, weight, share| sum.add(weight, share);
+            if time > 0 && self.is_gap(at) || !self.repetition(at, (dx, dy), add) {
                 return None;
             }
         }
         Some((sum.sum as f64 * share_length).round() as u64)
     }
 
-    /// Walks one repetition, whose sizes of coordinates are positive. Returns whether it is legal and
-    /// the sum not too great.
-    fn repetition(&self, from: Vertex, (dx, dy): (u64, u64), sum: &mut Sum) -> bool {
+    /// Walks one repetition, whose sizes of coordinates are positive. Returns whether it is legal, and no piece
+    /// stopped it: of each `piece` learns the cell, its weight and its share.
+    fn repetition(
+        &self,
+        from: Vertex,
+        (dx, dy): (u64, u64),
+        mut piece: impl FnMut((i32, i32), u32, u64) -> bool,
+    ) -> bool {
         let (layout, weights) = (self.graph.layout(), self.graph.map().weights());
         let weight = |x: i32, y: i32| weights[layout.position(x, y)];
         let (sx, sy) = (self.v.x.signum(), self.v.y.signum());
@@ -150,7 +178,7 @@ impl Walk<'_> {
         loop {
             let next = next_x.min(next_y).min(shares);
             let here = weight(x, y);
-            if here == 0 || !sum.add(here, next - at) {
+            if here == 0 || !piece((x, y), here, next - at) {
                 return false;
             }
             at = next;

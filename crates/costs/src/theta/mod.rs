@@ -5,14 +5,19 @@ mod smooth;
 use std::sync::Arc;
 
 use mediant_grid::{Identity, Mismatch, Vertex, VertexId};
-use mediant_moves::{Cost, Vector};
+use mediant_moves::Cost;
 use mediant_search::{
     End, Ends, Guarantee, NodeEvent, Observer, Path, Planner, QueryError, SearchStatus,
     parts::{Entry, Node, NodeStore, OpenList},
 };
 
 pub use self::smooth::smooth;
-use crate::{graph::CostGraph, guide::Guide, landmarks::Landmarks, scan::Visit};
+use crate::{
+    graph::{CostGraph, primitive},
+    guide::Guide,
+    landmarks::Landmarks,
+    scan::Visit,
+};
 
 /// Theta* (Nash, Daniel, Koenig & Felner 2007) on a cost surface: A* in which the parent of a node may be the
 /// parent of the node that generates it, if the straight segment from there is legal. The segment costs the
@@ -322,17 +327,12 @@ impl Planner for CostTheta {
 /// Adds a waypoint, if it is another one than the last. The one before is left out if it lies on a straight line between its neighbors and the
 /// cost stays exactly the same: if the same move of N(k) is repeated.
 fn push(graph: &CostGraph, waypoints: &mut Vec<Vertex>, at: Vertex) {
-    let primitive = |from: Vertex, to: Vertex| {
-        let d = from.to(to);
-        let times = d.gcd().max(1) as i32;
-        Vector::new(d.x / times, d.y / times)
-    };
     if waypoints.last() == Some(&at) {
         return;
     }
     if let [.., before, last] = waypoints[..] {
-        let v = primitive(last, at);
-        if v == primitive(before, last) && graph.known_move(v).is_some() {
+        let v = primitive(last.to(at)).0;
+        if v == primitive(before.to(last)).0 && graph.known_move(v).is_some() {
             waypoints.pop();
         }
     }

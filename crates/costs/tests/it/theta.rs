@@ -80,6 +80,9 @@ fn checked(graph: &CostGraph, map: &WeightedMap, rules: Rules, path: &Path, abou
     let cost = graph.segments_cost(path).unwrap_or_else(|| panic!("{path}: {about}"));
     let points: u32 = path.waypoints().windows(2).map(|ends| ends[0].to(ends[1]).gcd()).sum();
     assert_near(graph, cost, length, points, about);
+    let cell_cost = |(x, y): (u32, u32)| map.weight(x as i32, y as i32).map_or(f64::NAN, f64::from);
+    let along: f64 = graph.crossings(path).iter().map(|&(cell, length)| cell_cost(cell) * length).sum();
+    assert!((along - length).abs() <= 1e-9 * length, "{path}: {along} along its cells, {length}: {about}");
     cost
 }
 
@@ -161,7 +164,8 @@ fn a_path_with_a_segment_that_is_not_legal_is_not_smoothed() {
     for waypoints in [&[(0, 0), (4, 0)][..], &[(0, 0), (9, 9)], &[(2, 1)], &[(0, 0), (1, 1), (2, 1)]] {
         assert_eq!(smooth(&graph, &path(waypoints)), None, "{waypoints:?}");
     }
-    assert_eq!(graph.segments_cost(&path(&[(0, 0), (1, 1), (2, 1)])), None);
+    let blocked = path(&[(0, 0), (1, 1), (2, 1)]);
+    assert_eq!((graph.segments_cost(&blocked), graph.crossings(&blocked)), (None, Vec::new()));
     let alone = path(&[(1, 1)]);
     assert_eq!(smooth(&graph, &alone), Some((alone.clone(), Cost::ZERO)));
 }
