@@ -8,7 +8,7 @@ use mediant_moves::{Cost, FiniteK, Vector};
 use mediant_oracle::{
     Rng, WeightedGraph, WeightedMap, random_free_vertex, segment_is_legal, weighted_path_length,
 };
-use mediant_search::{Ends, Path, Planner};
+use mediant_search::{Answer, Ends, Path, Planner};
 
 use crate::common::{for_random_maps, graph, rounded, vertices};
 
@@ -168,4 +168,38 @@ fn a_path_with_a_segment_that_is_not_legal_is_not_smoothed() {
     assert_eq!((graph.segments_cost(&blocked), graph.crossings(&blocked)), (None, Vec::new()));
     let alone = path(&[(1, 1)]);
     assert_eq!(smooth(&graph, &alone), Some((alone.clone(), Cost::ZERO)));
+}
+
+#[test]
+fn a_planner_follows_an_edit_and_forgets_landmarks_of_another_graph() {
+    let cost = |x, y| Some(f64::from(2 + (5 * x + 3 * y) % 7)).filter(|_| (x + 2 * y) % 11 > 0);
+    let map = Arc::new(mediant_costs::CostMap::from_fn(40, 30, cost).expect("a surface"));
+    let (rules, k) = (Rules::ALL[1], 3);
+    let before = graph(&map, rules, k);
+    let landmarks = |graph: &Arc<CostGraph>| {
+        Arc::new(Landmarks::new(graph, 4, &Interrupt::NEVER).expect("four landmarks"))
+    };
+    let (ends, road) = (Ends::new((1, 15), (39, 15)), (0..40).map(|x| (x, 15, Some(2.0))));
+    let map = Arc::new(map.edit(road).expect("within the bounds"));
+    let after = graph(&map, rules, k);
+    for is_lazy in [false, true] {
+        let new = |graph: &Arc<CostGraph>| match is_lazy {
+            true => CostTheta::lazy(Arc::clone(graph)),
+            false => CostTheta::new(Arc::clone(graph)),
+        };
+        let expected = new(&after).solve(ends).expect("both are free");
+        assert_ne!(new(&before).solve(ends).expect("both are free"), expected);
+        let mut planner = new(&before).guided_by(landmarks(&before)).expect("its landmarks");
+        planner.solve(ends).expect("both are free");
+        assert!(planner.follow_with(Arc::clone(&after), landmarks(&before)).is_err());
+        planner.follow(Arc::clone(&after));
+        assert_eq!(planner.solve(ends).expect("both are free"), expected);
+        planner.follow_with(Arc::clone(&after), landmarks(&after)).expect("its landmarks");
+        let answer = planner.solve(ends).expect("both are free");
+        let cost = |answer: &Answer| answer.path().and_then(|path| after.segments_cost(path));
+        assert!(cost(&answer).is_some() && cost(&expected).is_some());
+        assert!(planner.solve(Ends::new((0, 0), (39, 29))).is_err(), "(0, 0) is blocked");
+        let alone = planner.solve(Ends::new((1, 0), (1, 0))).expect("it is free");
+        assert_eq!(alone.path().map(Path::len), Some(1));
+    }
 }
