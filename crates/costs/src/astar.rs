@@ -9,7 +9,12 @@ use mediant_search::{
     parts::{Entry, Node, NodeStore, OpenList},
 };
 
-use crate::{graph::CostGraph, guide::Guide, landmarks::Landmarks, scan::Visit};
+use crate::{
+    graph::CostGraph,
+    guide::Guide,
+    landmarks::Landmarks,
+    scan::{Visit, by_kind},
+};
 
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
 /// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm. With [`Landmarks`] the
@@ -268,18 +273,7 @@ impl Planner for CostAStar {
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if self.status == SearchStatus::Searching {
-            self.status = match (self.graph.k().get(), self.graph.is_center()) {
-                (2, true) => self.run::<2, true>(observer),
-                (3, true) => self.run::<3, true>(observer),
-                (4, true) => self.run::<4, true>(observer),
-                (5, true) => self.run::<5, true>(observer),
-                (_, true) => self.run::<6, true>(observer),
-                (2, false) => self.run::<2, false>(observer),
-                (3, false) => self.run::<3, false>(observer),
-                (4, false) => self.run::<4, false>(observer),
-                (5, false) => self.run::<5, false>(observer),
-                (_, false) => self.run::<6, false>(observer),
-            };
+            self.status = by_kind!(self.graph, [self.run](observer));
         }
         Ok(self.status)
     }

@@ -15,6 +15,26 @@ use crate::{
     scale::Scale,
 };
 
+/// Calls a function for the `K` and the `CENTER` of a [scan](Scanner::scan) of a graph.
+macro_rules! by_kind {
+    ($graph:expr, [$($call:tt)+]($($argument:expr),*)) => {
+        match ($graph.k().get(), $graph.is_center()) {
+            (2, true) => $($call)+::<2, true>($($argument),*),
+            (3, true) => $($call)+::<3, true>($($argument),*),
+            (4, true) => $($call)+::<4, true>($($argument),*),
+            (5, true) => $($call)+::<5, true>($($argument),*),
+            (_, true) => $($call)+::<6, true>($($argument),*),
+            (2, false) => $($call)+::<2, false>($($argument),*),
+            (3, false) => $($call)+::<3, false>($($argument),*),
+            (4, false) => $($call)+::<4, false>($($argument),*),
+            (5, false) => $($call)+::<5, false>($($argument),*),
+            (_, false) => $($call)+::<6, false>($($argument),*),
+        }
+    };
+}
+
+pub(crate) use by_kind;
+
 /// A search's use of the moves of a vertex.
 pub(crate) trait Visit {
     /// The cost of the best path known to a state, which a new one has to beat: the greatest for none, 0 for

@@ -5,7 +5,10 @@ use std::num::NonZeroUsize;
 use mediant_grid::{Interrupt, Interrupted, Rules};
 
 use super::{buckets::Buckets, threads};
-use crate::{graph::CostGraph, scan::Visit};
+use crate::{
+    graph::CostGraph,
+    scan::{Visit, by_kind},
+};
 
 /// A state that no path reaches.
 pub(super) const NONE: u64 = u64::MAX;
@@ -36,18 +39,7 @@ pub(super) fn search(
         sources: with_sources.then(|| vec![u32::MAX; graph.states()]),
         queue_bytes: 0,
     };
-    match (graph.k().get(), graph.is_center()) {
-        (2, true) => labels.run::<2, true>(graph, sources, limit, threads, interrupt),
-        (3, true) => labels.run::<3, true>(graph, sources, limit, threads, interrupt),
-        (4, true) => labels.run::<4, true>(graph, sources, limit, threads, interrupt),
-        (5, true) => labels.run::<5, true>(graph, sources, limit, threads, interrupt),
-        (_, true) => labels.run::<6, true>(graph, sources, limit, threads, interrupt),
-        (2, false) => labels.run::<2, false>(graph, sources, limit, threads, interrupt),
-        (3, false) => labels.run::<3, false>(graph, sources, limit, threads, interrupt),
-        (4, false) => labels.run::<4, false>(graph, sources, limit, threads, interrupt),
-        (5, false) => labels.run::<5, false>(graph, sources, limit, threads, interrupt),
-        (_, false) => labels.run::<6, false>(graph, sources, limit, threads, interrupt),
-    }?;
+    by_kind!(graph, [labels.run](graph, sources, limit, threads, interrupt))?;
     Ok(labels)
 }
 

@@ -35,7 +35,11 @@ use mediant_moves::Cost;
 
 pub use self::error::LandmarksError;
 use self::{choice::Components, lines::Lines};
-use crate::{CostField, CostFieldError, CostFieldQuery, graph::CostGraph, scan::Visit};
+use crate::{
+    CostField, CostFieldError, CostFieldQuery,
+    graph::CostGraph,
+    scan::{Visit, by_kind},
+};
 
 /// Lower bounds of the costs between all vertices of a graph, by fields from a few landmarks: the index of a
 /// cost surface. Immutable; share it between planners.
@@ -201,12 +205,7 @@ pub(crate) use lines::Numbers;
 /// Visits the legal moves from a state, by the scan that is made for the graph's k.
 fn scan(graph: &CostGraph, from: (usize, u64), visit: &mut impl Visit) {
     let (scanner, weights) = (graph.scanner(), graph.map().weights());
-    match (graph.k().get(), graph.is_center()) {
-        (2, true) => scanner.scan::<2>(weights, from, visit),
-        (3, true) => scanner.scan::<3>(weights, from, visit),
-        (4, true) => scanner.scan::<4>(weights, from, visit),
-        _ => scanner.scan::<0>(weights, from, visit),
-    }
+    by_kind!(graph, [scanner.scan](weights, from, visit));
 }
 
 /// Whether a state is blocked whatever the moves: then no scan asks for more of it.

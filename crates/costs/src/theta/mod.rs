@@ -16,7 +16,7 @@ use crate::{
     graph::{CostGraph, primitive},
     guide::Guide,
     landmarks::Landmarks,
-    scan::Visit,
+    scan::{Visit, by_kind},
 };
 
 /// Theta* (Nash, Daniel, Koenig & Felner 2007) on a cost surface: A* in which the parent of a node may be the
@@ -142,7 +142,7 @@ impl CostTheta {
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    fn run<const K: u32>(&mut self, observer: &mut impl Observer) -> SearchStatus {
+    fn run<const K: u32, const CENTER: bool>(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { graph, nodes, open, goal, guide, is_lazy, .. } = self;
         let (graph, guide, is_lazy): (&CostGraph, &Guide, bool) = (graph, guide, *is_lazy);
         let (scanner, weights) = (graph.scanner(), graph.map().weights());
@@ -178,7 +178,7 @@ impl CostTheta {
             let goal_at = graph.vertex(*goal);
             let mut relaxing =
                 Relaxing { graph, guide, goal_at, here: (state, at), above, weights, nodes, open, observer };
-            scanner.scan::<K>(weights, (state, node.g.to_bits()), &mut relaxing);
+            scanner.scan::<K, CENTER>(weights, (state, node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
     }
@@ -286,12 +286,7 @@ impl Planner for CostTheta {
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if self.status == SearchStatus::Searching {
-            self.status = match (self.graph.k().get(), self.graph.is_center()) {
-                (2, true) => self.run::<2>(observer),
-                (3, true) => self.run::<3>(observer),
-                (4, true) => self.run::<4>(observer),
-                _ => self.run::<0>(observer),
-            };
+            self.status = by_kind!(self.graph, [self.run](observer));
         }
         Ok(self.status)
     }

@@ -72,7 +72,7 @@ fn soft_costs_lead_through_the_wide_passage_in_its_middle() {
     let mut table = String::new();
     for (name, path) in [("plain", &plain), ("soft", &soft), ("widest", &widest)] {
         let (least, mean) = clearance(path, &map);
-        writeln!(table, "{name:6}  length {:.1}, clearance {least:.1}, in the mean {mean:.1}", path.cost())
+        writeln!(table, "{name:6}  length {:.1}, clearance {least:.1}, in the mean {mean:.1}", path.length())
             .expect("a string takes all");
     }
     assert_eq!(
@@ -103,7 +103,7 @@ fn gray_maps_of_ros_become_costs() {
             let costs = |weight| costmap.to_costs(weight, &Traversal::default(), &Interrupt::NEVER);
             let [across, around] =
                 [0.0, 10.0].map(|weight| path(costs(weight).expect("a weight"), Ends::new((0, 0), (8, 0))));
-            assert_eq!(across.map(|path| path.cost()), Some(8.0));
+            assert_eq!(across.map(|path| path.length()), Some(8.0));
             assert!(around.is_some_and(|path| path.waypoints().iter().any(|at| at.y >= 4)));
         }
     }
