@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf, process::ExitCode};
 
 use mediant::{Engine, PlacementKind, Vertex, call::CallError, errors::SetupError};
-use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, TilesError, WriteError};
+use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, SurfaceError, TilesError, WriteError};
 
 use crate::terminal::message::say_error;
 
@@ -48,6 +48,26 @@ pub(crate) enum Failure {
     NoWorld { map: String },
     #[error("the map {map} has no characters for tiles: leave {option} out, or give a MovingAI map")]
     NoTiles { map: String, option: &'static str },
+    #[error(transparent)]
+    Surface(SurfaceError),
+    #[error("{option} does not go with costs: leave it out, or leave the costs out")]
+    NotOnCosts { option: &'static str },
+    #[error(
+        "{}: {columns} columns and {rows} rows of costs, and {map} has {}: give one cost for each cell",
+        path.display(), shape.0.to_string() + " and " + &shape.1.to_string()
+    )]
+    OtherSize { path: PathBuf, columns: u32, rows: u32, map: String, shape: (u32, u32) },
+    #[error("--costs {} for {map}, whose cells have costs of their own: leave one of the two out", path.display())]
+    TwoCosts { path: PathBuf, map: String },
+    #[error(
+        "{}: the coordinates are degrees, and the width of a cell differs from row to row: project it to meters          first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there",
+        path.display()
+    )]
+    Degrees { path: PathBuf },
+    #[error(
+        "{}: the cost of cell ({x}, {y}) is {cost}: it must be a positive number; mark walls as cells without data,          or as blocked on the map", path.display()
+    )]
+    NoCost { path: PathBuf, x: usize, y: usize, cost: f64 },
     #[error(
         "{}: its paths are on the grounds of a MovingAI map, and {map} has none: give the map that they were \
          made on", path.display()

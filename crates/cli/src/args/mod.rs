@@ -3,6 +3,7 @@
 mod build;
 mod check;
 mod convert;
+mod costs;
 mod demo;
 mod explain;
 mod flags;
@@ -22,6 +23,7 @@ pub(crate) use self::{
     build::BuildArgs,
     check::CheckArgs,
     convert::ConvertArgs,
+    costs::CostsArgs,
     demo::DemoArgs,
     explain::explain,
     manual::{CompletionsArgs, ManArgs},

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    costs::CostsArgs,
     flags::{Flags, MOTION},
     map::MapArgs,
     value::{Place, parse_amount, parse_place},
@@ -15,19 +16,22 @@ use super::{
 pub(crate) struct ReachArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
 
     /// A source: a place from which distances are measured. Of several (repeat it) the nearest one counts
     #[arg(long, value_name = "X,Y", required = true)]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     pub(crate) from: Vec<Place>,
-    /// Go no further than this, in cells (with --world in meters)
+    /// Go no further than this, in cells (with --world in meters); where cells have costs, in costs
     #[arg(long, value_name = "COST", allow_negative_numbers = true)]
     #[arg(value_parser = |text: &str| parse_amount(text, "cells"))]
     pub(crate) within: Option<f64>,
     #[command(flatten)]
     pub(crate) motion: Flags<MOTION>,
     /// Write the distances to this file (repeat it for several): .png and .svg are pictures, .csv has x, y
-    /// and distance of all that is reached, .npy is an array for NumPy; - prints the CSV
+    /// and distance of all that is reached, .npy is an array for NumPy, .asc and .tif are rasters (ESRI ASCII
+    /// grid, GeoTIFF) at the place of the costs; - prints the CSV
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
 }
@@ -43,9 +47,13 @@ agent with a radius.
 Exit status: 0, 1 if a source is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
 read or written.
 
+With --costs, or where the map itself is a raster of numbers (NPY, ESRI ASCII grid, GeoTIFF), cells have \
+costs, and distances are the least costs: an accumulated cost surface.
+
 Examples:
   mediant reach builtin:cave --from 2,5 --within 40
   mediant reach arena.map --from 1,11 --from 40,30 -o arena.png
   mediant reach arena.map --from 1,11 --k any --gap closed -o arena.svg -o arena.csv -o arena.npy
   mediant reach arena.map --from 1,11 --radius 1.5 --within 20 -o -
+  mediant reach friction.tif --from 100,200 --k 4 --corners always -o cost.tif
   mediant reach depot.yaml --world --from 0.5,0.5 --within 1.5 --radius 0.1";

@@ -9,6 +9,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use mediant::{Engine, K, Motion, Rules, Setup};
 
 use super::{
+    costs::CostsArgs,
     flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},
     map::MapArgs,
     query::QueryArgs,
@@ -21,6 +22,8 @@ use crate::failure::Failure;
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
 
     /// A MovingAI scenario file with the queries, or builtin:NAME; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
@@ -43,7 +46,7 @@ pub(crate) struct RunArgs {
     pub(crate) limit: Option<NonZeroUsize>,
     /// Answer each query of a MovingAI map on the ground of its start: land (.GS), water (W) or trees (T),
     /// between which no step leads
-    #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances"])]
+    #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances", "costs"])]
     pub(crate) grounds: bool,
     #[command(flatten)]
     pub(crate) query: QueryArgs,

@@ -26,7 +26,7 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     check_outputs(&args.map.map, &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
-    let space = map.to_library().space(asked.motion)?;
+    let space = map.space(asked.motion)?;
     let (setup, choice) = space.setup(&asked.call, Demand::Index)?;
     let built = space.prepare_with_progress(setup.engine, &|step| progress.tell(step));
     let took = begin.elapsed();

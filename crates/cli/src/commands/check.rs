@@ -80,7 +80,7 @@ impl Rules {
         // Between centers no engine searches at any angle. For sight, every k is as good.
         let is_searched = k != K::Any || rules.placement() == PlacementKind::Corner;
         let k = if is_searched { k } else { K::N8 };
-        Ok(map.to_library().space(Motion::new(k, rules))?)
+        Ok(map.space(Motion::new(k, rules))?)
     }
 }
 

@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant::{Error, Field, Motion, Vertex};
-use mediant_formats::Picture;
+use mediant_formats::{Picture, Surface, SurfaceFormat};
 
 use crate::{
     args::ReachArgs,
@@ -32,6 +32,7 @@ enum Form {
     Printed,
     Csv,
     Npy,
+    Surface(SurfaceFormat),
     Picture,
 }
 
@@ -44,9 +45,11 @@ impl Form {
         match extension(path).as_str() {
             "csv" => Ok(Self::Csv),
             "npy" => Ok(Self::Npy),
+            "asc" => Ok(Self::Surface(SurfaceFormat::EsriAscii)),
+            "tif" | "tiff" => Ok(Self::Surface(SurfaceFormat::GeoTiff)),
             "png" | "svg" => Ok(Self::Picture),
             _ => {
-                let known = ".png, .svg, .csv or .npy (- prints CSV)";
+                let known = ".png, .svg, .csv, .npy, .asc or .tif (- prints CSV)";
                 Err(Failure::Extension { path: path.to_owned(), known })
             }
         }
@@ -58,15 +61,15 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let motion = args.motion.0.motion()?;
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
-    let map = NamedMap::load(&args.map)?.for_agent(&args.map, motion)?;
+    let map = NamedMap::load(&args.map)?.for_agent(&args.map, motion)?.with_costs(&args.costs)?;
     let written: Vec<&Path> =
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
     check_outputs(&args.map.map, &written)?;
     let placement = motion.rules.placement();
     let sources = args.from.iter().map(|&place| map.vertex(placement, place));
     let sources = sources.collect::<Result<Vec<Vertex>, Failure>>()?;
-    let limit = args.within.map(|cost| map.cells(cost));
-    let space = map.to_library().space(motion)?;
+    let limit = args.within.map(|cost| if map.costs.is_some() { cost } else { map.cells(cost) });
+    let space = map.space(motion)?;
     let field = match limit {
         Some(limit) => space.field_within(sources.iter().copied(), limit),
         None => space.field(sources.iter().copied()),
@@ -86,6 +89,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
                 let shape = (field.height(), field.width());
                 write_file(path, |file| npy::write(shape, field.lengths(), file))?;
             }
+            Form::Surface(_) => surface(&map, &field)?.save(path)?,
             Form::Picture => picture(&map, motion, &field, &sources).write_to(path)?,
         }
     }
@@ -97,6 +101,21 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         }
     }
     Ok(Ending::Answered)
+}
+
+/// The distances as a raster, at the place of the costs.
+fn surface(map: &NamedMap, field: &Field) -> Result<Surface, Failure> {
+    /// No distance is negative, and every program reads it.
+    const NO_DATA: f64 = -9999.0;
+    let lengths = field.lengths();
+    let lengths: Vec<f64> =
+        lengths.into_iter().map(|cost| if cost.is_finite() { cost } else { NO_DATA }).collect();
+    let surface = Surface::new(field.width(), field.height(), lengths).map_err(Failure::Surface)?;
+    let surface = surface.with_no_data(Some(NO_DATA));
+    Ok(match &map.georeference {
+        Some(place) => surface.with_georeference(place.clone()),
+        None => surface,
+    })
 }
 
 /// The map with the distances as colors.

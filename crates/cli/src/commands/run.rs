@@ -38,8 +38,10 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     args.check_ends()?;
     let map = match args.grounds {
         true => load(args)?.on_all_grounds(&args.map)?,
-        false => load(args)?.for_agent(&args.map, asked.motion)?,
+        false => load(args)?.for_agent(&args.map, asked.motion)?.with_costs(&args.costs)?,
     };
+    map.refuse_on_costs("--edits", args.edits.is_some())?;
+    map.refuse_on_costs("--reference", reference.is_some())?;
     check_outputs(&args.map.map, &args.outputs())?;
     let query = args.query.on(asked.call.wishes(), &map, placement)?;
     if let (Some(path), Some(from)) = (&args.distances, query.from.first()) {

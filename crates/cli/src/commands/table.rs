@@ -38,7 +38,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
         ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
     let (goals, goals_moved) = ends(&map, placement, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
     let begin = Instant::now();
-    let space = map.to_library().space(asked.motion)?;
+    let space = map.space(asked.motion)?;
     let pairs = Demand::Paths(starts.len() as u64 * goals.len() as u64);
     let (index, choice) = asked.index(&space, pairs, args.index.as_deref())?;
     let preparation = begin.elapsed();

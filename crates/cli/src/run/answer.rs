@@ -106,11 +106,12 @@ pub(crate) enum QueryAnswer {
 pub(crate) struct Found {
     /// `None` if only its length was asked for.
     pub(crate) path: Option<Path>,
-    /// Its length, in cells.
+    /// Its length, in cells; where cells have costs its cost.
     pub(crate) cost: f64,
     /// The certificate: no any-angle path is shorter than this, by the engine's guarantee and by the straight
     /// line.
-    pub(crate) lower_bound: f64,
+    /// `None` on costs, where there is none.
+    pub(crate) lower_bound: Option<f64>,
     /// The length of the shortest any-angle path, with `--reference`.
     pub(crate) any_angle: Option<f64>,
 }
@@ -148,9 +149,9 @@ impl QueryRecord {
 
 impl Found {
     /// Adds the certificate, which follows from the path and the guarantee of its engine.
-    pub(crate) fn new(path: Path, guarantee: Guarantee, rules: Rules, any_angle: Option<f64>) -> Self {
+    pub(crate) fn new(path: Path, (guarantee, rules): (Guarantee, Rules), any_angle: Option<f64>) -> Self {
         let straight = ends(&path).map_or(0.0, |(start, goal)| start.distance(goal));
-        let measured = Self::measured(path.cost(), straight, guarantee, rules, any_angle);
+        let measured = Self::measured(path.cost(), straight, (guarantee, rules), any_angle);
         Self { path: Some(path), ..measured }
     }
 
@@ -158,18 +159,22 @@ impl Found {
     pub(crate) fn measured(
         cost: f64,
         straight: f64,
-        guarantee: Guarantee,
-        rules: Rules,
+        (guarantee, rules): (Guarantee, Rules),
         any_angle: Option<f64>,
     ) -> Self {
         // The rounded sum of a straight path's parts may be less than the straight line.
         let lower_bound = guarantee.lower_bound(rules, cost, straight).min(cost);
-        Self { path: None, cost, lower_bound, any_angle }
+        Self { path: None, cost, lower_bound: Some(lower_bound), any_angle }
+    }
+
+    /// The same path on costs, where nothing is known of paths at any angle.
+    pub(crate) fn on_costs(self) -> Self {
+        Self { lower_bound: None, ..self }
     }
 
     /// The path is at most this many times as long as the shortest any-angle path; at least 1.
-    pub(crate) fn bound(&self) -> f64 {
-        ratio(self.cost, self.lower_bound)
+    pub(crate) fn bound(&self) -> Option<f64> {
+        self.lower_bound.map(|least| ratio(self.cost, least))
     }
 
     /// The path is this many times as long as the shortest any-angle path.

@@ -28,7 +28,7 @@ pub(crate) fn write(
     path: &Path,
     screen: &mut Screen,
 ) -> Result<Ending, Failure> {
-    let space = map.to_library().space(asked.motion)?;
+    let space = map.space(asked.motion)?;
     let (setup, _) = space.setup(&asked.call, Demand::Distances)?;
     let found = match space.distances(setup.engine.kind(), from) {
         Ok(found) => found,

@@ -37,13 +37,15 @@ pub(crate) struct Jsonl<'s> {
     world: Option<(WorldFrame, PlacementKind)>,
     /// Whether only the lengths of paths are asked for.
     only_lengths: bool,
+    /// Whether cells have costs.
+    has_costs: bool,
 }
 
 impl<'s> Jsonl<'s> {
     /// Lines that somebody watches on a terminal do not wait in the buffer.
     pub(crate) fn new(screen: &'s mut Screen, watched: bool) -> Self {
         let patience = if watched { Duration::ZERO } else { Duration::from_secs(1) };
-        Self { screen, patience, flushed: Instant::now(), world: None, only_lengths: false }
+        Self { screen, patience, flushed: Instant::now(), world: None, only_lengths: false, has_costs: false }
     }
 
     fn line(&mut self, record: &impl Serialize) -> io::Result<()> {
@@ -68,6 +70,7 @@ impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
         self.world = run.map.frame.map(|frame| (frame, run.setup.rules().placement()));
         self.only_lengths = run.query.distance;
+        self.has_costs = run.map.costs.is_some();
         self.line(&RunLine::from(run))?;
         self.flush()
     }
@@ -80,6 +83,9 @@ impl Report for Jsonl<'_> {
         let mut line = QueryLine::from(&record);
         if self.only_lengths {
             line.path = None;
+        }
+        if self.has_costs {
+            line.length = record.path().map(mediant::Path::length);
         }
         line.world = self.world.zip(record.path()).map(|((frame, placement), path)| {
             path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
@@ -102,6 +108,10 @@ struct RunLine<'r> {
     height: u32,
     /// Of the agent's map.
     free_cells: u64,
+    /// The least and the greatest cost of a cell a unit of length; only with costs. Limits and `cost` are in
+    /// costs then, and there is no `lower_bound` of a path that was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    costs: Option<[f64; 2]>,
     /// Whether each query is answered on the ground of its start; only with `--grounds`. `free_cells` are
     /// those of all grounds then.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -226,6 +236,7 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
             height: grid.height(),
             free_cells: grid.free_cells(),
             grounds: run.grounds.then_some(true),
+            costs: run.map.costs.as_ref().map(|costs| costs.bounds().into()),
             radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
             resolution: run.map.frame.map(|frame| frame.resolution()),
             moved: run.query.moved,
@@ -346,6 +357,9 @@ struct QueryLine<'a> {
     stopped_by: Option<String>,
     /// Of the path; `null` without one.
     cost: Option<f64>,
+    /// The length of the path, in cells; only in a run with costs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length: Option<f64>,
     /// The waypoints, of a stopped search those of the best path so far; empty without a path; not with
     /// `--distance`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -418,12 +432,15 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             },
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
             cost: record.cost(),
+            length: None,
             path: Some(path.into_iter().flat_map(Path::points).collect()),
             world: None,
             smoothness: path.map(Path::smoothness),
             reference: item.reference,
-            lower_bound: found.map(|found| found.lower_bound).or(stopped.map(|stopped| stopped.lower_bound)),
-            bound: found.map(Found::bound),
+            lower_bound: found
+                .map_or(None, |found| found.lower_bound)
+                .or(stopped.map(|stopped| stopped.lower_bound)),
+            bound: found.and_then(Found::bound),
             any_angle: found.and_then(|found| found.any_angle),
             ratio: found.and_then(Found::ratio),
             expanded: counters.expanded,

@@ -59,7 +59,7 @@ impl Searchers {
                 Some(ground) => map.on_ground(ground)?.for_agent(&args.map, asked.motion)?,
             };
             let begin = Instant::now();
-            let space = map.to_library().space(asked.motion)?;
+            let space = map.space(asked.motion)?;
             let (index, choice) = asked.index(&space, demand, args.index.as_deref())?;
             preparation += begin.elapsed();
             let planner = index.try_planner()?;

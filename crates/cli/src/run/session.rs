@@ -94,7 +94,7 @@ impl Session<'_> {
         item: Item,
     ) -> Result<QueryRecord, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
-        let (grid, rules) = (&*map.grid, run.setup.rules());
+        let (grid, rules, has_costs) = (&*map.grid, run.setup.rules(), map.costs.is_some());
         let query = || run.query.between(item.ends);
         if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =
@@ -103,8 +103,8 @@ impl Session<'_> {
                 Ok(Some(cost)) => {
                     let Ends { start, goal, .. } = item.ends;
                     let (straight, any_angle) = (start.distance(goal), shortest(any_angle, (start, goal)));
-                    let found = Found::measured(cost, straight, run.guarantee, rules, any_angle);
-                    Ok(QueryAnswer::Found(found))
+                    let found = Found::measured(cost, straight, (run.guarantee, rules), any_angle);
+                    Ok(QueryAnswer::Found(if has_costs { found.on_costs() } else { found }))
                 }
                 Ok(None) => Ok(QueryAnswer::Unreachable),
                 Err(error) => Err(Unanswered::new(error, map, rules.placement())),
@@ -127,7 +127,8 @@ impl Session<'_> {
         let answer = match answer {
             Ok(Answer::Found(path)) => {
                 let any_angle = ends(&path).and_then(|ends| shortest(any_angle, ends));
-                Ok(QueryAnswer::Found(Found::new(path, run.guarantee, rules, any_angle)))
+                let found = Found::new(path, (run.guarantee, rules), any_angle);
+                Ok(QueryAnswer::Found(if has_costs { found.on_costs() } else { found }))
             }
             Ok(Answer::Nearest(path)) => Ok(QueryAnswer::Nearest(path)),
             Ok(Answer::Stopped(stopped)) => Ok(QueryAnswer::Stopped(stopped)),

@@ -159,7 +159,7 @@ impl Tally {
         self.smoothness += record.path().filter(|_| found.is_some()).map_or(0.0, Path::smoothness);
         let cost = found.map_or(0.0, |found| found.cost);
         self.cost += cost;
-        self.bound.add(index, found.map(Found::bound));
+        self.bound.add(index, found.and_then(Found::bound));
         self.ratio.add(index, found.and_then(Found::ratio));
         if let Some(reference) = record.item.reference.filter(|_| is_comparable(record)) {
             self.compare(index, cost, reference.max(0.0));
@@ -275,7 +275,7 @@ mod tests {
         let answer = cost.map_or(QueryAnswer::Unreachable, |cost| {
             let path = Path::new([(0, 0), (cost - 1, 0), (cost - 1, 1)].map(Vertex::from).to_vec());
             let cost = path.cost();
-            QueryAnswer::Found(Found { lower_bound: cost, cost, path: Some(path), any_angle: None })
+            QueryAnswer::Found(Found { lower_bound: Some(cost), cost, path: Some(path), any_angle: None })
         });
         let counters = Counters {
             expanded: 10,
@@ -326,9 +326,9 @@ mod tests {
             record
         };
         for (index, lower_bound) in [(0, 3.0), (2, 2.0), (4, 2.0), (6, 2.5)] {
-            tally.add(&with(index, lower_bound, None));
+            tally.add(&with(index, Some(lower_bound), None));
         }
-        tally.add(&with(8, 3.0, Some(2.4)));
+        tally.add(&with(8, Some(3.0), Some(2.4)));
         tally.add(&answer(10, None, 0.0, 1));
         let summary = tally.finish();
         let bound = summary.bound.unwrap();

@@ -399,7 +399,10 @@ fn error_cells(row: &QueryRecord) -> Vec<String> {
 
 /// Writes the certificate of a path, and how much longer than the path of `any_angle` it is.
 fn certificate(screen: &mut Screen, found: &Found, any_angle: &str) -> io::Result<()> {
-    let bound = found.bound();
+    let Some(bound) = found.bound() else {
+        let Some(path) = &found.path else { return Ok(()) };
+        return writeln!(screen, "  length {:.4} cells", path.length());
+    };
     let certificate = if bound > NO_LONGER {
         format!("at most {} longer than the shortest path at any angle", excess(bound))
     } else {
