@@ -60,12 +60,14 @@ pub(crate) enum Failure {
     #[error("--costs {} for {map}, whose cells have costs of their own: leave one of the two out", path.display())]
     TwoCosts { path: PathBuf, map: String },
     #[error(
-        "{}: the coordinates are degrees, and the width of a cell differs from row to row: project it to meters          first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there",
+        "{}: the coordinates are degrees, and the width of a cell differs from row to row: project it to meters \
+         first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there",
         path.display()
     )]
     Degrees { path: PathBuf },
     #[error(
-        "{}: the cost of cell ({x}, {y}) is {cost}: it must be a positive number; mark walls as cells without data,          or as blocked on the map", path.display()
+        "{}: the cost of cell ({x}, {y}) is {cost}: it must be a positive number; mark walls as cells without \
+         data, or as blocked on the map", path.display()
     )]
     NoCost { path: PathBuf, x: usize, y: usize, cost: f64 },
     #[error(

@@ -6,6 +6,7 @@ use std::{
     process::{Command, Stdio},
 };
 
+use mediant_formats::Surface;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -161,8 +162,10 @@ pub(crate) fn check_mismatch(error: &str, file: &str, [built, needed]: [&str; 2]
 /// The examples in the help of a command, with the files of `add_example_files`: each is to succeed.
 #[track_caller]
 pub(crate) fn run_examples(files: &Files, command: &str, expected: usize) {
-    const ENDS: [&str; 12] =
-        [".idx", ".txt", ".map", ".yaml", ".png", ".pgm", ".pbm", ".svg", ".csv", ".npy", ".jsonl", ".scen"];
+    const ENDS: [&str; 14] = [
+        ".idx", ".txt", ".map", ".yaml", ".png", ".pgm", ".pbm", ".svg", ".csv", ".npy", ".jsonl", ".scen",
+        ".asc", ".tif",
+    ];
     let help = run(&format!("{command} --help")).stdout;
     let (_, examples) = help.split_once("\nExamples:\n").expect("examples");
     let lines: Vec<&str> = examples.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
@@ -177,7 +180,8 @@ pub(crate) fn run_examples(files: &Files, command: &str, expected: usize) {
     assert_eq!(lines.len(), expected, "{examples}");
 }
 
-/// Adds `arena.map`, 49 × 49 cells, and `depot.yaml`, 60 × 40 cells of 5 cm, without walls.
+/// Adds `arena.map`, 49 × 49 cells, `depot.yaml`, 60 × 40 cells of 5 cm, and `friction.tif`, 120 × 220 cells
+/// of cost 3, without walls.
 pub(crate) fn add_example_files(files: &Files) {
     let row = ".".repeat(49) + "\n";
     files.add("arena.map", format!("type octile\nheight 49\nwidth 49\nmap\n{}", row.repeat(49)));
@@ -189,6 +193,8 @@ pub(crate) fn add_example_files(files: &Files) {
         "convert {depot} -o {} --resolution 0.05 --origin -0.5,-0.5,0",
         files.path("depot.yaml")
     ));
+    let friction = Surface::new(120, 220, vec![3_u8; 120 * 220]).expect("a number for each cell");
+    friction.save(files.path("friction.tif")).expect("a file in the temporary folder");
 }
 
 /// Runs a command line that succeeds without a word on stderr, and returns what it prints.

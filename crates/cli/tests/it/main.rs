@@ -7,6 +7,7 @@ mod changing;
 mod check;
 mod common;
 mod convert;
+mod costs;
 mod edits;
 mod errors;
 mod grounds;

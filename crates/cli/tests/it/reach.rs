@@ -196,7 +196,7 @@ fn arguments_that_make_no_sense() {
         "reach builtin:cave --from 2,5 --placement center --gap open",
         "--gap: it is for placement corner; at centers there is corners",
     );
-    let known = "expected a name that ends in .png, .svg, .csv or .npy (- prints CSV)";
+    let known = "expected a name that ends in .png, .svg, .csv, .npy, .asc or .tif (- prints CSV)";
     for name in ["near.gif", "near", ".png"] {
         check(&format!("reach builtin:cave --from 2,5 -o {name}"), &format!("{name}: {known}"));
     }
@@ -240,5 +240,5 @@ fn the_map_is_not_overwritten() {
 fn the_examples_of_the_help_run() {
     let files = Files::new();
     add_example_files(&files);
-    run_examples(&files, "reach", 5);
+    run_examples(&files, "reach", 6);
 }

@@ -1,0 +1,121 @@
+//! Costs of cells: `run` and `reach` with `--costs`, and on a raster as the map.
+
+use mediant_formats::{Georeference, Surface, SurfaceOptions, read_surface};
+use serde_json::Value;
+
+use crate::{
+    common::{Files, run, succeeds},
+    errors::check,
+};
+
+/// A map with a wall, and its costs: a road of cost 1 along the bottom, through land of cost 4.
+const MAP: &str = "type octile\nheight 3\nwidth 5\nmap\n.....\n..@..\n.....\n";
+const COSTS: &str = "ncols 5\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n\
+                     4 4 4 4 4\n1 4 9 4 1\n1 1 1 1 1\n";
+
+fn files() -> (Files, String) {
+    let files = Files::new();
+    let (map, costs) = (files.add("land.map", MAP), files.add("costs.asc", COSTS));
+    (files, format!("{map} --costs {costs}"))
+}
+
+fn lines(text: &str) -> Vec<Value> {
+    text.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect()
+}
+
+#[test]
+fn a_path_tells_its_cost_and_its_length() {
+    let (_files, arguments) = files();
+    let lines = lines(&succeeds(&format!("run {arguments} --from 0,0 --to 4,0 --k 2 --format jsonl")));
+    let (run, query) = (&lines[0], &lines[1]);
+    assert_eq!((&run["costs"], &run["engine"]), (&serde_json::json!([1.0, 4.0]), &"astar".into()));
+    // Half a cell of cost 4, the road, and back: against 16 along the top.
+    assert_eq!((query["cost"].as_f64(), query["length"].as_f64()), (Some(11.0), Some(8.0)));
+    assert!(query["lower_bound"].is_null() && query["bound"].is_null());
+    let text = succeeds(&format!("run {arguments} --from 0,0 --to 4,0 --k 2"));
+    assert!(text.contains("11.0000") && text.contains("length 8.0000 cells"), "{text}");
+    assert!(!text.contains("certificate"), "{text}");
+    // Without costs the top is as short as can be.
+    let plain = arguments.split(' ').next().expect("a map");
+    let plain = self::lines(&succeeds(&format!("run {plain} --from 0,0 --to 4,0 --k 2 --format jsonl")));
+    assert_eq!((plain[1]["cost"].as_f64(), plain[1].get("length")), (Some(4.0), None));
+}
+
+#[test]
+fn limits_are_in_costs() {
+    let (_files, arguments) = files();
+    let stopped =
+        lines(&succeeds(&format!("run {arguments} --from 0,0 --to 4,0 --k 2 --max-cost 10 --format jsonl")));
+    assert_eq!((&stopped[1]["status"], &stopped[1]["stopped_by"]), (&"stopped".into(), &"cost".into()));
+    let reached = succeeds(&format!("reach {arguments} --from 0,2 --k 2 --within 2 -o -"));
+    let expected = "x,y,distance\n0,1,1\n0,2,0\n1,2,1\n2,2,2\n";
+    assert_eq!(reached, expected);
+}
+
+#[test]
+fn a_raster_is_a_map_whose_numbers_are_costs() {
+    let files = Files::new();
+    let surface = Surface::new(3, 2, vec![2_u8, 2, 2, 0, 8, 2]).expect("six numbers");
+    let place = Georeference::from_cell_size(30.0, 20.0).expect("a size");
+    let surface = surface.with_no_data(Some(0.0)).with_georeference(place);
+    for name in ["land.tif", "land.asc", "land.npy"] {
+        let path = files.path(name);
+        surface.save(&path).expect("it can be written");
+        if name.ends_with("npy") {
+            // It keeps neither the size of a cell nor what has no data.
+            let message = format!("{path}: the cost of cell (0, 1) is 0: it must be a positive number");
+            let ran = run(&format!("reach {path} --from 0,0"));
+            assert!(ran.stderr.contains(&message), "{}", ran.stderr);
+            continue;
+        }
+        let outputs = ["cost.tif", "cost.asc", "cost.npy"].map(|name| files.path(name));
+        succeeds(&format!(
+            "reach {path} --from 0,0 --k 2 -o {} -o {} -o {}",
+            outputs[0], outputs[1], outputs[2]
+        ));
+        for output in outputs {
+            let read = read_surface(&output, &SurfaceOptions::default()).expect("a raster");
+            let costs: Vec<f64> = read.iter().map(|cost| cost.unwrap_or(f64::INFINITY)).collect();
+            assert_eq!(costs, [0.0, 60.0, 120.0, f64::INFINITY, 160.0, 160.0], "{output} of {path}");
+            let is_placed = !output.ends_with("npy");
+            assert_eq!(read.cell_size(), is_placed.then_some((30.0, 20.0)), "{output} of {path}");
+        }
+    }
+}
+
+#[test]
+fn what_does_not_go_with_costs_is_said() {
+    let (files, arguments) = files();
+    check(
+        &format!("run {arguments} --from 0,0 --to 4,0 --engine jps"),
+        "jps knows no costs of cells: on costs choose astar, dijkstra",
+    );
+    check(
+        &format!("run {arguments} --from 0,0 --to 4,0 --radius 1"),
+        "--radius does not go with costs: leave it out, or leave the costs out",
+    );
+    let small = files.add("small.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 1\n");
+    let map = files.path("land.map");
+    check(
+        &format!("reach {map} --from 0,0 --costs {small}"),
+        &format!(
+            "{small}: 2 columns and 1 rows of costs, and land.map has 5 and 3: give one cost for each cell"
+        ),
+    );
+    let wrong = files.add("wrong.asc", COSTS.replace("9 4 1", "9 -4 1"));
+    check(
+        &format!("reach {map} --from 0,0 --costs {wrong}"),
+        &format!(
+            "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number; mark walls as cells without \
+             data, or as blocked on the map"
+        ),
+    );
+    check(
+        &format!("reach {small} --from 0,0 --costs {small}"),
+        &format!(
+            "--costs {small} for small.asc, whose cells have costs of their own: leave one of the two out"
+        ),
+    );
+    let missing = run(&format!("reach {map} --from 0,0 --costs no.tif"));
+    assert!(missing.status == Some(2) && missing.stderr.contains("no.tif"), "{}", missing.stderr);
+}
