@@ -134,7 +134,7 @@ const SURFACES: [(&str, Surface); 5] = [
     ("walls 20 %, cost 1", noise),
 ];
 
-/// What a planner made of the queries.
+/// The answers of a planner to the queries, and its work.
 struct Row {
     costs: Vec<Cost>,
     /// Expansions a query.

@@ -17,8 +17,8 @@ use crate::{
 };
 
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
-/// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm. With [`Landmarks`] the
-/// heuristic is the greatest of h_k and of their bounds.
+/// Without its heuristic, h_k over cells of the least cost, it is Dijkstra's algorithm. With [`Landmarks`]
+/// the heuristic is the greatest of h_k and of their bounds.
 ///
 /// The cost of its paths, [`Path::cost`], is that on the surface; their length is [`Path::length`]. Observers
 /// are told costs in units of the map ([`CostGraph::to_f64`]).

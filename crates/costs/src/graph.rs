@@ -190,8 +190,8 @@ impl CostGraph {
 
     /// The cells that a path of straight segments crosses, in their order on the way, each with the length in
     /// it, in the unit of the cell size: the sum of length · cost is the cost of the path. Of a move along a
-    /// grid line it is the cell whose cost counts. Cells that are touched in a corner alone are left out. Empty
-    /// for a path with a segment that is not legal.
+    /// grid line it is the cell whose cost counts. Cells that are touched in a corner alone are left out.
+    /// Empty for a path with a segment that is not legal.
     #[must_use]
     pub fn crossings(&self, path: &Path) -> Vec<((u32, u32), f64)> {
         let mut crossings: Vec<((u32, u32), f64)> = Vec::new();

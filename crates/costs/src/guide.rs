@@ -19,7 +19,7 @@ pub(crate) enum Guide {
     /// The greatest of this and the bounds of landmarks.
     Landmarks {
         landmarks: Arc<Landmarks>,
-        /// Those of the goal.
+        /// The distances of the goal.
         numbers: Box<Numbers>,
     },
 }

@@ -156,8 +156,8 @@ impl Walk<'_> {
         Some((sum.sum as f64 * share_length).round() as u64)
     }
 
-    /// Walks one repetition, whose sizes of coordinates are positive. Returns whether it is legal, and no piece
-    /// stopped it: of each `piece` learns the cell, its weight and its share.
+    /// Walks one repetition, whose sizes of coordinates are positive. Returns whether it is legal, and no
+    /// piece stopped it: of each `piece` learns the cell, its weight and its share.
     fn repetition(
         &self,
         from: Vertex,

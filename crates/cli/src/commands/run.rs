@@ -38,10 +38,8 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     args.check_ends()?;
     let map = match args.grounds {
         true => load(args)?.on_all_grounds(&args.map)?,
-        false => load(args)?.for_agent(&args.map, asked.motion)?.with_costs(&args.costs)?,
+        false => with_costs(args, load(args)?.for_agent(&args.map, asked.motion)?)?,
     };
-    map.refuse_on_costs("--edits", args.edits.is_some())?;
-    map.refuse_on_costs("--reference", reference.is_some())?;
     check_outputs(&args.map.map, &args.outputs())?;
     let query = args.query.on(asked.call.wishes(), &map, placement)?;
     if let (Some(path), Some(from)) = (&args.distances, query.from.first()) {
@@ -96,6 +94,14 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         }
     }
     Ok(ending(&queries, finished, args.require_path))
+}
+
+/// The map with its costs, if it has any; refuses options that have no meaning then.
+fn with_costs(args: &RunArgs, map: NamedMap) -> Result<NamedMap, Failure> {
+    let map = map.with_costs(&args.costs)?;
+    map.refuse_on_costs("--edits", args.edits.is_some())?;
+    map.refuse_on_costs("--reference", args.reference.is_some())?;
+    Ok(map)
 }
 
 /// Checks that there is one query where only one can be shown.

@@ -72,8 +72,8 @@ impl Buckets {
             .then(|| (self.current..).find(|&bucket| !self.ring[self.slot(bucket)].is_empty()))?
     }
 
-    /// Goes on to a bucket, before which none is queued, and takes its states into an empty list; those that it
-    /// holds by then.
+    /// Goes on to a bucket, before which none is queued, and takes its states into an empty list; those that
+    /// it holds by then.
     pub(super) fn take_from(&mut self, bucket: u64, states: &mut Vec<u32>) {
         self.current = bucket;
         let slot = self.slot(bucket);

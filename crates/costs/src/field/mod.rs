@@ -106,8 +106,8 @@ impl CostField {
         Self::on_threads(graph, query, NonZeroUsize::MIN, interrupt)
     }
 
-    /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A query
-    /// for the allocation is answered on one. It pays from some 10⁶ vertices on.
+    /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A
+    /// query for the allocation is answered on one. It pays from some 10⁶ vertices on.
     ///
     /// # Errors
     /// As for [`new`](Self::new).

@@ -1,9 +1,9 @@
 //! The search of a field on several threads.
 //!
-//! All threads work on one bucket at a time. Each has a queue of its own, and shares the states of its current
-//! bucket with the others, by pieces, so that none waits long. A cost is lowered by compare-and-swap. The costs
-//! at the end are the least that satisfy all moves, whoever found them when: the same integers as on one
-//! thread.
+//! All threads work on one bucket at a time. Each has a queue of its own, and shares the states of its
+//! current bucket with the others, by pieces, so that none waits long. A cost is lowered by compare-and-swap.
+//! The costs at the end are the least that satisfy all moves, whoever found them when: the same integers as
+//! on one thread.
 
 use std::{
     hint::spin_loop,

@@ -46,8 +46,8 @@ impl Landmarks {
     }
 
     /// The landmarks from their bytes. Of every move it is checked that the bounds at its ends differ by its
-    /// cost at most. So paths by accepted bytes are the cheapest ones, whatever the bytes. It takes as long as
-    /// about two fields.
+    /// cost at most. So paths by accepted bytes are the cheapest ones, whatever the bytes. It takes as long
+    /// as about two fields.
     ///
     /// # Errors
     /// [`LandmarksError::Mismatch`] for the landmarks of another graph, [`LandmarksError::Bytes`] for bytes

@@ -8,8 +8,8 @@
 //! **Components.** One field has a landmark in each component of the map, so none of its costs there is
 //! infinite. Small components have no landmark; all their states hold the same greatest number.
 //!
-//! **32 bits.** A cost d is kept as q = ⌊x d⌋ in units of 2ˢ, with x = (m − 2ˢ) / (m 2ˢ), where m is the least
-//! cost of a move. For a move of cost c between a and b, |d(a) − d(b)| ≤ c and c ≥ m. So
+//! **32 bits.** A cost d is kept as q = ⌊x d⌋ in units of 2ˢ, with x = (m − 2ˢ) / (m 2ˢ), where m is the
+//! least cost of a move. For a move of cost c between a and b, |d(a) − d(b)| ≤ c and c ≥ m. So
 //!
 //! 2ˢ |q(a) − q(b)| ≤ 2ˢ (x c + 1) = c − c 2ˢ / m + 2ˢ ≤ c.
 //!
@@ -17,10 +17,10 @@
 //! admissible. What it loses is a part 2ˢ / m of the exact one: mostly a millionth, never more than a
 //! thousandth. A cost beyond the greatest number is kept as that number, which takes nothing of this away.
 //!
-//! **Edits.** All that a search needs of the numbers is that 2ˢ |q(a) − q(b)| is at most the cost of each move.
-//! Where costs rise and cells close, moves cost more or vanish, and the old numbers remain right. Where costs
-//! fall and cells open, the numbers are lowered until they are right again. That holds in the same units; a
-//! surface in units of its own has new landmarks.
+//! **Edits.** All that a search needs of the numbers is that 2ˢ |q(a) − q(b)| is at most the cost of each
+//! move. Where costs rise and cells close, moves cost more or vanish, and the old numbers remain right. Where
+//! costs fall and cells open, the numbers are lowered until they are right again. That holds in the same
+//! units; a surface in units of its own has new landmarks.
 
 mod bytes;
 mod choice;
@@ -112,8 +112,8 @@ impl Landmarks {
     pub const MAX_COUNT: usize = lines::MOST;
 
     /// Landmarks for a graph: 4, 8 or 16 of them, the first of these that is not less than `count`, in each
-    /// component. One after the other is the vertex that is farthest from those before it. It takes as long as
-    /// so many fields and two more.
+    /// component. One after the other is the vertex that is farthest from those before it. It takes as long
+    /// as so many fields and two more.
     ///
     /// # Errors
     /// [`LandmarksError::Count`]; [`LandmarksError::Interrupted`].

@@ -26,10 +26,10 @@ use crate::{
 /// Where costs differ a straight segment can be dearer than the way around. So the parent is skipped only
 /// where that is not dearer than the way over it. Therefore **no path costs more than the least cost over
 /// N(k)**: when a node is generated, its cost is at most that of its generator and of the move; and the
-/// heuristic is consistent over N(k). Take an optimal path over N(k) to a node s that is about to be expanded,
-/// and its first node m that is not closed. The node before m was closed at no more than its optimal cost, so m
-/// has no more either; and f(s) ≤ f(m) then implies the same of s. Nothing is known of how near paths come to
-/// the least cost at any angle.
+/// heuristic is consistent over N(k). Take an optimal path over N(k) to a node s that is about to be
+/// expanded, and its first node m that is not closed. The node before m was closed at no more than its
+/// optimal cost, so m has no more either; and f(s) ≤ f(m) then implies the same of s. Nothing is known of how
+/// near paths come to the least cost at any angle.
 ///
 /// [`lazy`](Self::lazy) walks a segment only for nodes that are expanded, and until then has the cost of the
 /// way over the parent. (Lazy Theta* of Nash, Koenig & Tovey 2010 takes the segment for granted until then.
@@ -319,8 +319,8 @@ impl Planner for CostTheta {
     }
 }
 
-/// Adds a waypoint, if it is another one than the last. The one before is left out if it lies on a straight line between its neighbors and the
-/// cost stays exactly the same: if the same move of N(k) is repeated.
+/// Adds a waypoint, if it is another one than the last. The one before is left out if it lies on a straight
+/// line between its neighbors and the cost stays exactly the same: if the same move of N(k) is repeated.
 fn push(graph: &CostGraph, waypoints: &mut Vec<Vertex>, at: Vertex) {
     if waypoints.last() == Some(&at) {
         return;

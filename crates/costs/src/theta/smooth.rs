@@ -13,9 +13,9 @@ const SPAN: usize = 24;
 const PASSES: usize = 6;
 
 /// Makes a path straighter where that does not raise its cost: leaves waypoints out, so that segments run at
-/// any angle. Of the ways over some of the waypoints of the path, a limited number ahead of each, it takes one
-/// of the least cost, and of those one of the fewest segments. It does so again until nothing changes, a few
-/// times at most.
+/// any angle. Of the ways over some of the waypoints of the path, a limited number ahead of each, it takes
+/// one of the least cost, and of those one of the fewest segments. It does so again until nothing changes, a
+/// few times at most.
 ///
 /// Returns the path and its [`segments_cost`](CostGraph::segments_cost), which is not above that of the path
 /// given; `None` for a path with a segment that is not legal. Its time follows the length of the path.
@@ -74,8 +74,8 @@ fn states(graph: &CostGraph, waypoints: &[Vertex]) -> Option<Vec<usize>> {
     Some(states)
 }
 
-/// The cheapest way over some of these states, with the fewest segments, and its cost. `None` if two states in
-/// a row are not joined by a legal segment.
+/// The cheapest way over some of these states, with the fewest segments, and its cost. `None` if two states
+/// in a row are not joined by a legal segment.
 fn straightened(graph: &CostGraph, states: &[usize]) -> Option<(Vec<usize>, u64)> {
     // Of each state the cost, the number of segments, and the place of the state before.
     let mut best = vec![(0_u64, 0_usize, 0_usize)];

@@ -73,7 +73,8 @@ fn long_segments_are_those_of_their_parts() {
     }
 }
 
-/// Asserts that a path is legal, of straight segments, and that its cost is the integral along it. Returns it.
+/// Asserts that a path is legal, of straight segments, and that its cost is the integral along it. Returns
+/// it.
 fn checked(graph: &CostGraph, map: &WeightedMap, rules: Rules, path: &Path, about: &str) -> Cost {
     let length = weighted_path_length(map, rules, None, path.waypoints());
     let length = length.unwrap_or_else(|fault| panic!("{path}: {fault}: {about}"));
