@@ -37,7 +37,7 @@ use crate::{
 /// paths are a little dearer.
 ///
 /// Closed nodes stay closed, as in the papers. A path is found whenever N(k) has one.
-/// [`CostGraph::segments_cost`] is the cost of its paths; [`Path::cost`] is their length.
+/// [`Path::cost`] is the cost of its paths on the surface, [`Path::length`] their length.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -296,22 +296,23 @@ impl Planner for CostTheta {
             return None;
         }
         if let Some(alone) = self.alone {
-            return (alone == at).then(|| Path::new(vec![at]));
+            return (alone == at).then(|| Path::with_cost(vec![at], 0.0));
         }
         let mut state = self.graph.end(at)?;
         let mut node = self.nodes.get(id(state))?;
-        let mut waypoints = vec![at];
+        let (mut waypoints, cost) = (vec![at], self.graph.to_f64(node.g));
         while node.pointer.index() != state {
             state = node.pointer.index();
             push(&self.graph, &mut waypoints, self.graph.vertex(state));
             node = self.nodes.get(node.pointer)?;
         }
         waypoints.reverse();
-        Some(Path::new(waypoints))
+        Some(Path::with_cost(waypoints, cost))
     }
 
     fn guarantee(&self) -> Guarantee {
-        Guarantee::AtMost(self.graph.k())
+        // Of lengths it promises nothing, and no guarantee speaks of costs at any angle.
+        Guarantee::Suboptimal
     }
 
     fn identity(&self) -> Identity {

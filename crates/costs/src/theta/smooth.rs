@@ -50,7 +50,8 @@ pub fn smooth(graph: &CostGraph, path: &Path) -> Option<(Path, Cost)> {
     }
     let mut waypoints: Vec<Vertex> = Vec::with_capacity(states.len());
     states.iter().for_each(|&state| push(graph, &mut waypoints, graph.vertex(state)));
-    Some((Path::new(waypoints), Cost::from_bits(cost)))
+    let cost = Cost::from_bits(cost);
+    Some((Path::with_cost(waypoints, graph.to_f64(cost)), cost))
 }
 
 /// The states of the waypoints of a path. At a closed gap it is that of the quadrant from which the path

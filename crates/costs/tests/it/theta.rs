@@ -81,6 +81,7 @@ fn checked(graph: &CostGraph, map: &WeightedMap, rules: Rules, path: &Path, abou
     let cost = graph.segments_cost(path).unwrap_or_else(|| panic!("{path}: {about}"));
     let points: u32 = path.waypoints().windows(2).map(|ends| ends[0].to(ends[1]).gcd()).sum();
     assert_near(graph, cost, length, points, about);
+    assert_eq!(path.cost(), graph.to_f64(cost), "{path}: {about}");
     let cell_cost = |(x, y): (u32, u32)| map.weight(x as i32, y as i32).map_or(f64::NAN, f64::from);
     let along: f64 = graph.crossings(path).iter().map(|&(cell, length)| cell_cost(cell) * length).sum();
     assert!((along - length).abs() <= 1e-9 * length, "{path}: {along} along its cells, {length}: {about}");
