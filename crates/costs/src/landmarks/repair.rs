@@ -49,12 +49,11 @@ impl Landmarks {
         if !before.scanner().gaps.is_same_as(&after.scanner().gaps) {
             lines = Arc::new(with_gaps(&lines, before, after));
         }
-        let seeds = lowered(before, after, cells);
+        let most = lines.states().saturating_mul(lines.count()) / SLOWNESS;
+        let Some(seeds) = lowered(before, after, cells, most / lines.count()) else {
+            return Self::new(after, self.count(), interrupt);
+        };
         if !seeds.is_empty() {
-            let most = lines.states().saturating_mul(lines.count()) / SLOWNESS;
-            if seeds.len().saturating_mul(self.count()) > most {
-                return Self::new(after, self.count(), interrupt);
-            }
             let (graph, shift, lines_after) = (after.as_ref(), self.shift, lines.edit());
             let mut lowering =
                 Lowering { graph, lines: lines_after, shift, slot: 0, open: BinaryHeap::new() };
@@ -95,8 +94,8 @@ fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Lines {
     resized
 }
 
-/// The ends of all moves that may have become cheaper.
-fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Vec<usize> {
+/// The ends of all moves that may have become cheaper; `None` for more than so many.
+fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)], most: usize) -> Option<Vec<usize>> {
     let layout = after.layout();
     let reach = after.scanner().moves.all().iter().map(|of| of.vector.x).max().unwrap_or_default();
     // The corners of a cell lie at it and beyond.
@@ -109,6 +108,14 @@ fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Vec<u
         if is == 0 || was > 0 && is >= was {
             continue;
         }
+        // Cells near one another have ends in common.
+        if states.len() / 2 > most {
+            states.sort_unstable();
+            states.dedup();
+            if states.len() > most {
+                return None;
+            }
+        }
         for y in (y - reach).max(0)..=(y + beyond).min(height as i32 - 1) {
             for x in (x - reach).max(0)..=(x + beyond).min(width as i32 - 1) {
                 let at = layout.position(x, y);
@@ -120,7 +127,7 @@ fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Vec<u
     states.sort_unstable();
     states.dedup();
     states.retain(|&state| !is_blocked(after, state));
-    states
+    (states.len() <= most).then_some(states)
 }
 
 /// Lowers the numbers of one landmark after the other.
