@@ -311,7 +311,7 @@ impl PathCosts for CostGraph {
 }
 
 /// The moves of a path over N(k), each with the vertex where it begins.
-fn steps(path: &Path) -> impl Iterator<Item = (Vertex, Vector)> {
+pub(crate) fn steps(path: &Path) -> impl Iterator<Item = (Vertex, Vector)> {
     let ends = path.waypoints().windows(2).filter(|ends| ends[0] != ends[1]);
     ends.flat_map(|ends| steps_between(ends[0], ends[1]))
 }

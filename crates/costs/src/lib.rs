@@ -12,6 +12,8 @@
 //! - [`CostTheta`] finds paths of straight segments at any angle, none dearer than the least cost over N(k);
 //!   [`smooth`] makes a path one.
 //! - [`Costmap`] is a robot's costmap, with the inflation of nav2.
+//! - [`WalkingMap`], [`WalkingGraph`], [`WalkingField`] and [`WalkingAStar`] are the same for walking over
+//!   elevation, where a move and the one back cost different times.
 //!
 //! **The key decision: costs are integers here, too.** The sum of shares times weights is exact, its product
 //! with the length of a share is rounded once (module `moves`), and all else is integer sums. So results do
@@ -40,6 +42,7 @@ mod readme;
 mod scale;
 mod scan;
 mod theta;
+mod walking;
 
 pub use astar::CostAStar;
 pub use costmap::{Costmap, Inflation, Traversal};
@@ -49,3 +52,6 @@ pub use graph::CostGraph;
 pub use landmarks::{Landmarks, LandmarksError};
 pub use map::CostMap;
 pub use theta::{CostTheta, smooth};
+pub use walking::{
+    Heading, Langmuir, Pace, WalkingAStar, WalkingError, WalkingField, WalkingGraph, WalkingMap,
+};

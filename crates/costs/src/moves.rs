@@ -38,14 +38,14 @@ pub(crate) struct Factor {
 }
 
 impl Factor {
-    /// That of a move of so many shares and this length.
-    fn new(scale: &Scale, shares: u32, length: f64) -> Self {
-        let greatest = u64::from(shares) * u64::from(scale.greatest);
-        let shift = greatest.leading_zeros();
+    /// That of a move of so many shares and this length, in units of costs a unit of weight, for weights
+    /// between these bounds.
+    pub(crate) fn new(length: f64, shares: u32, (least, greatest): (u64, u64)) -> Self {
+        let shift = (u64::from(shares) * greatest).leading_zeros();
         // Below 2⁶⁴, since no move costs 2⁶³ units.
-        let exact = scale.units(length) / f64::from(shares) * 2.0_f64.powi(64 - shift as i32);
-        let least = (scale.units(length) * f64::from(scale.least)).round() as u64;
-        let sum = u64::from(shares) * u64::from(scale.least);
+        let exact = length / f64::from(shares) * 2.0_f64.powi(64 - shift as i32);
+        let sum = u64::from(shares) * least;
+        let least = (length * least as f64).round() as u64;
         // From one factor to the next, the cost of the least sum grows by less than a unit.
         let near =
             [exact.round(), exact.floor(), exact.ceil()].map(|factor| Self { factor: factor as u64, shift });
@@ -91,7 +91,8 @@ impl Moves {
             let (parts, shares) = parts(placement, vector);
             let touched = touched(placement, vector);
             all.extend(parts);
-            let factor = Factor::new(scale, shares, scale.length(vector));
+            let bounds = (scale.least.into(), scale.greatest.into());
+            let factor = Factor::new(scale.units(scale.length(vector)), shares, bounds);
             let least = factor.cost(u64::from(shares) * u64::from(scale.least));
             let is_along = placement == PlacementKind::Corner && (vector.x == 0 || vector.y == 0);
             Move { vector, factor, least, first, last: all.len() as u32, is_along, touched }
@@ -130,7 +131,7 @@ impl Moves {
 }
 
 /// The cells that a move crosses, in their order on the way, and the number of its shares.
-fn parts(placement: PlacementKind, v: Vector) -> (Vec<Part>, u32) {
+pub(crate) fn parts(placement: PlacementKind, v: Vector) -> (Vec<Part>, u32) {
     let (dx, dy) = (v.x.abs(), v.y.abs());
     let part = |dx: i32, dy: i32, share: i32| Part { dx: dx as i8, dy: dy as i8, share: share as u16 };
     let is_center = placement == PlacementKind::Center;
@@ -165,7 +166,7 @@ fn parts(placement: PlacementKind, v: Vector) -> (Vec<Part>, u32) {
 
 /// The two cells that a move between centers touches in a corner. It passes a corner of cells exactly where
 /// both coordinates are odd, half way.
-fn touched(placement: PlacementKind, v: Vector) -> Option<[(i8, i8); 2]> {
+pub(crate) fn touched(placement: PlacementKind, v: Vector) -> Option<[(i8, i8); 2]> {
     if placement == PlacementKind::Corner || v.x % 2 == 0 || v.y % 2 == 0 {
         return None;
     }

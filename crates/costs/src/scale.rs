@@ -42,11 +42,7 @@ impl Scale {
         are_integers: bool,
         cell_size: (f64, f64),
     ) -> Result<Self, CostsError> {
-        let (x, y) = cell_size;
-        let is_size = |side: f64| side.is_finite() && side > 0.0;
-        if !is_size(x) || !is_size(y) || x.max(y) / x.min(y) > GREATEST_RATIO {
-            return Err(CostsError::CellSize { x, y });
-        }
+        check_cell_size(cell_size)?;
         let is_integral = are_integers && greatest <= f64::from(u32::MAX);
         let range = CostsError::Range { least, greatest };
         if !is_integral && greatest / least > GREATEST_RATIO {
@@ -55,16 +51,8 @@ impl Scale {
         let weight_exponent = if is_integral { 0 } else { floor_log2(greatest) - 31 };
         let weight = |cost: f64| ((cost * exp2(-weight_exponent)).round() as u32).max(1);
         let (least, greatest) = (weight(least), weight(greatest));
-        let straight = f64::from(least) * exp2(weight_exponent) * x.min(y);
-        // Vertices beyond those of the map: a search labels what lies one move ahead.
-        let longest =
-            (vertices as f64 + 64.0) * (x * x + y * y).sqrt() * f64::from(greatest) * exp2(weight_exponent);
-        // Of 63 digits, those that the longest path leaves.
-        let digits = (62 - floor_log2(longest) + floor_log2(straight)).min(DIGITS.0);
-        if digits < DIGITS.1 {
-            return Err(range);
-        }
-        let exponent = floor_log2(straight) - digits;
+        let costs = [least, greatest].map(|weight| f64::from(weight) * exp2(weight_exponent));
+        let exponent = exponent(vertices, costs, cell_size).ok_or(range)?;
         Ok(Self { weight_exponent, exponent, least, greatest, cell_size })
     }
 
@@ -95,14 +83,7 @@ impl Scale {
 
     /// The length of a displacement, in the unit of the cell size.
     pub(crate) fn length(&self, v: Vector) -> f64 {
-        let (width, height) = self.cell_size;
-        // Square cells first: their roots are those of integers.
-        if width == height {
-            return v.norm() * width;
-        }
-        let (x, y) = (f64::from(v.x) * width, f64::from(v.y) * height);
-        // Products and a root, which IEEE 754 rounds alike everywhere; `hypot` is each platform's own.
-        (x * x + y * y).sqrt()
+        length(self.cell_size, v)
     }
 
     /// Numbers by which two scales differ.
@@ -113,14 +94,43 @@ impl Scale {
     }
 }
 
+/// Checks the width and the height of a cell.
+pub(crate) fn check_cell_size((x, y): (f64, f64)) -> Result<(), CostsError> {
+    let is_size = |side: f64| side.is_finite() && side > 0.0;
+    let fits = is_size(x) && is_size(y) && x.max(y) / x.min(y) <= GREATEST_RATIO;
+    if fits { Ok(()) } else { Err(CostsError::CellSize { x, y }) }
+}
+
+/// The exponent of the unit of costs on a map of so many vertices, with these bounds of the costs a unit of
+/// length; `None` if there are too few digits for exact sums.
+pub(crate) fn exponent(vertices: u64, [least, greatest]: [f64; 2], (x, y): (f64, f64)) -> Option<i32> {
+    let straight = least * x.min(y);
+    // Vertices beyond those of the map: a search labels what lies one move ahead.
+    let longest = (vertices as f64 + 64.0) * (x * x + y * y).sqrt() * greatest;
+    // Of 63 digits, those that the longest path leaves.
+    let digits = (62 - floor_log2(longest) + floor_log2(straight)).min(DIGITS.0);
+    (digits >= DIGITS.1).then(|| floor_log2(straight) - digits)
+}
+
+/// The length of a displacement, in the unit of the cell size.
+pub(crate) fn length((width, height): (f64, f64), v: Vector) -> f64 {
+    // Square cells first: their roots are those of integers.
+    if width == height {
+        return v.norm() * width;
+    }
+    let (x, y) = (f64::from(v.x) * width, f64::from(v.y) * height);
+    // Products and a root, which IEEE 754 rounds alike everywhere; `hypot` is each platform's own.
+    (x * x + y * y).sqrt()
+}
+
 /// The exponent of the greatest power of two in a positive number.
-fn floor_log2(number: f64) -> i32 {
+pub(crate) fn floor_log2(number: f64) -> i32 {
     // Below the normal numbers it is that of the least of these, which only makes units smaller.
     ((number.to_bits() >> 52) as i32 & 0x7FF) - 1023
 }
 
 /// A power of two, exactly.
-fn exp2(exponent: i32) -> f64 {
+pub(crate) fn exp2(exponent: i32) -> f64 {
     2.0_f64.powi(exponent)
 }
 

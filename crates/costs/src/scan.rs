@@ -45,6 +45,41 @@ pub(crate) trait Visit {
     fn relax(&mut self, by: usize, to: usize, cost: u64);
 }
 
+/// The moves of a search graph, as searches read them.
+pub(crate) trait Scanning: Copy + Sync {
+    /// A lower and an upper bound of the costs of moves.
+    fn bounds(self) -> (u64, u64);
+
+    /// Visits the legal moves from a state whose cost is known.
+    fn scan(self, from: (usize, u64), visit: &mut impl Visit);
+}
+
+/// The moves of a cost surface: those of N(`K`) for K = 2 to 5, those of any k above for K = 6, at centers or
+/// at corners.
+#[derive(Clone, Copy)]
+pub(crate) struct OfCosts<'g, const K: u32, const CENTER: bool> {
+    scanner: &'g Scanner,
+    scale: &'g Scale,
+    weights: &'g [u32],
+}
+
+impl<'g, const K: u32, const CENTER: bool> OfCosts<'g, K, CENTER> {
+    pub(crate) fn new(scanner: &'g Scanner, map: &'g CostMap) -> Self {
+        Self { scanner, scale: map.scale(), weights: map.weights() }
+    }
+}
+
+impl<const K: u32, const CENTER: bool> Scanning for OfCosts<'_, K, CENTER> {
+    fn bounds(self) -> (u64, u64) {
+        self.scanner.bounds(self.scale)
+    }
+
+    #[inline]
+    fn scan(self, from: (usize, u64), visit: &mut impl Visit) {
+        self.scanner.scan::<K, CENTER>(self.weights, from, visit);
+    }
+}
+
 /// All that a scan reads.
 #[derive(Clone, Debug)]
 pub(crate) struct Scanner {

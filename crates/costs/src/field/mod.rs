@@ -2,7 +2,7 @@
 
 mod buckets;
 mod directions;
-mod search;
+pub(crate) mod search;
 mod threads;
 
 use std::{num::NonZeroUsize, sync::Arc};
@@ -13,7 +13,11 @@ use mediant_search::{End, Path};
 
 pub use self::directions::DirectionCode;
 use self::search::{Labels, NONE, search};
-use crate::{error::CostFieldError, graph::CostGraph, layout::SIDE};
+use crate::{
+    error::CostFieldError,
+    graph::CostGraph,
+    layout::{Layout, SIDE},
+};
 
 /// The sources of a field, its limit, and whether it tells the nearest source.
 ///
@@ -282,28 +286,12 @@ impl CostField {
     #[must_use]
     pub fn into_rows(mut self) -> Vec<f64> {
         self.forget_gaps();
-        let Self { graph, mut costs, .. } = self;
-        let (layout, (width, height), unit) = (graph.layout(), graph.size(), graph.map().unit());
+        let Self { graph, costs, .. } = self;
+        let (layout, size, unit) = (graph.layout(), graph.size(), graph.map().unit());
         let is_blocked = |at: usize| graph.is_center() && graph.map().weights()[at] == 0;
-        let mut rows = Vec::new();
-        for band in 0..height.div_ceil(SIDE) {
-            let range = layout.band(band);
-            rows.clear();
-            rows.extend_from_slice(&costs[range.clone()]);
-            for y in band * SIDE..height.min((band + 1) * SIDE) {
-                // Rows have no frame, so they are written before this row of tiles.
-                let first = y as usize * width as usize;
-                for (x, to) in (0..width as i32).zip(&mut costs[first..first + width as usize]) {
-                    let at = layout.position(x, y as i32);
-                    let cost = rows[at - range.start];
-                    let is_in = cost != NONE && !is_blocked(at);
-                    *to = (if is_in { cost as f64 * unit } else { f64::INFINITY }).to_bits();
-                }
-            }
-        }
-        costs.truncate(width as usize * height as usize);
-        // The standard library keeps the memory here.
-        costs.into_iter().map(f64::from_bits).collect()
+        into_rows(costs, layout, size, |at, cost| {
+            if cost != NONE && !is_blocked(at) { cost as f64 * unit } else { f64::INFINITY }
+        })
     }
 
     /// Takes the gaps at which no path ends out of the field.
@@ -332,4 +320,30 @@ impl CostField {
         let (width, height) = self.graph.size();
         (0..height as i32).flat_map(move |y| (0..width as i32).map(move |x| Vertex::new(x, y)))
     }
+}
+
+/// Numbers of all vertices, row by row, from their costs by position, in the same memory.
+pub(crate) fn into_rows(
+    mut costs: Vec<u64>,
+    layout: Layout,
+    (width, height): (u32, u32),
+    number: impl Fn(usize, u64) -> f64,
+) -> Vec<f64> {
+    let mut rows = Vec::new();
+    for band in 0..height.div_ceil(SIDE) {
+        let range = layout.band(band);
+        rows.clear();
+        rows.extend_from_slice(&costs[range.clone()]);
+        for y in band * SIDE..height.min((band + 1) * SIDE) {
+            // Rows have no frame, so they are written before this row of tiles.
+            let first = y as usize * width as usize;
+            for (x, to) in (0..width as i32).zip(&mut costs[first..first + width as usize]) {
+                let at = layout.position(x, y as i32);
+                *to = number(at, rows[at - range.start]).to_bits();
+            }
+        }
+    }
+    costs.truncate(width as usize * height as usize);
+    // The standard library keeps the memory here.
+    costs.into_iter().map(f64::from_bits).collect()
 }

@@ -7,19 +7,19 @@ use mediant_grid::{Interrupt, Interrupted, Rules};
 use super::{buckets::Buckets, threads};
 use crate::{
     graph::CostGraph,
-    scan::{Visit, by_kind},
+    scan::{OfCosts, Scanning, Visit, by_kind},
 };
 
 /// A state that no path reaches.
-pub(super) const NONE: u64 = u64::MAX;
+pub(crate) const NONE: u64 = u64::MAX;
 
 /// The costs of all states, and, if asked for, the least number of the sources that are as near as any.
 #[derive(Debug)]
-pub(super) struct Labels {
-    pub(super) costs: Vec<u64>,
-    pub(super) sources: Option<Vec<u32>>,
+pub(crate) struct Labels {
+    pub(crate) costs: Vec<u64>,
+    pub(crate) sources: Option<Vec<u32>>,
     /// The memory of the queue when the search was done, in bytes.
-    pub(super) queue_bytes: usize,
+    pub(crate) queue_bytes: usize,
 }
 
 /// The states between two questions of an interrupt.
@@ -34,13 +34,28 @@ pub(super) fn search(
     threads: NonZeroUsize,
     interrupt: &Interrupt,
 ) -> Result<Labels, Interrupted> {
-    let mut labels = Labels {
-        costs: unreached(graph, interrupt)?,
-        sources: with_sources.then(|| vec![u32::MAX; graph.states()]),
-        queue_bytes: 0,
-    };
-    by_kind!(graph, [labels.run](graph, sources, limit, threads, interrupt))?;
-    Ok(labels)
+    fn run<const K: u32, const CENTER: bool>(
+        graph: &CostGraph,
+        search: Search<'_>,
+    ) -> Result<Labels, Interrupted> {
+        search
+            .run(unreached(graph, search.interrupt)?, OfCosts::<K, CENTER>::new(graph.scanner(), graph.map()))
+    }
+    let search = Search { sources, limit, with_sources, threads, interrupt };
+    by_kind!(graph, [run](graph, search))
+}
+
+/// The question of a search.
+#[derive(Clone, Copy)]
+pub(crate) struct Search<'s> {
+    /// States, each with its number.
+    pub(crate) sources: &'s [(usize, u32)],
+    /// The greatest cost.
+    pub(crate) limit: u64,
+    /// Whether it finds the nearest source of each state.
+    pub(crate) with_sources: bool,
+    pub(crate) threads: NonZeroUsize,
+    pub(crate) interrupt: &'s Interrupt,
 }
 
 /// The costs before a search. At centers a blocked cell has cost 0, which no path beats.
@@ -59,47 +74,64 @@ fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Inter
     Ok(costs)
 }
 
-impl Labels {
-    fn run<const K: u32, const CENTER: bool>(
-        &mut self,
-        graph: &CostGraph,
-        sources: &[(usize, u32)],
-        limit: u64,
-        threads: NonZeroUsize,
-        interrupt: &Interrupt,
-    ) -> Result<(), Interrupted> {
-        self.queue_bytes = if threads.get() > 1 && self.sources.is_none() {
-            threads::run::<K, CENTER>(graph, &mut self.costs, sources, limit, threads, interrupt)?
+impl Search<'_> {
+    /// Lowers the costs of all states to those of the cheapest paths.
+    pub(crate) fn run(self, costs: Vec<u64>, moves: impl Scanning) -> Result<Labels, Interrupted> {
+        let Self { limit, with_sources, threads, interrupt, .. } = self;
+        let sources = with_sources.then(|| vec![u32::MAX; costs.len()]);
+        let mut labels = Labels { costs, sources, queue_bytes: 0 };
+        labels.queue_bytes = if threads.get() > 1 && !with_sources {
+            threads::run(moves, &mut labels.costs, self)?
         } else {
-            self.run_alone::<K, CENTER>(graph, sources, limit, interrupt)?
+            self.run_alone(&mut labels, moves)?
         };
         if limit != NONE {
-            for piece in self.costs.chunks_mut(1 << 18) {
+            for piece in labels.costs.chunks_mut(1 << 18) {
                 interrupt.check("filling memory")?;
                 piece.iter_mut().filter(|cost| **cost > limit).for_each(|cost| *cost = NONE);
             }
         }
-        Ok(())
+        Ok(labels)
     }
 
     /// Returns the memory of the queue, in bytes.
-    fn run_alone<const K: u32, const CENTER: bool>(
-        &mut self,
-        graph: &CostGraph,
-        sources: &[(usize, u32)],
-        limit: u64,
-        interrupt: &Interrupt,
-    ) -> Result<usize, Interrupted> {
-        let (least, greatest) = graph.scanner().bounds(graph.map().scale());
+    fn run_alone(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+        let (least, greatest) = moves.bounds();
         let mut queue = Buckets::new(least, greatest);
-        let costs = Costs { costs: &mut self.costs, queue: &mut queue };
-        match &mut self.sources {
-            None => run::<K, CENTER, _>(graph, sources, costs, limit, interrupt)?,
-            Some(numbers) => {
-                run::<K, CENTER, _>(graph, sources, Numbered { costs, numbers, from: 0 }, limit, interrupt)?;
-            }
+        let costs = Costs { costs: &mut labels.costs, queue: &mut queue };
+        match &mut labels.sources {
+            None => self.label(moves, costs)?,
+            Some(numbers) => self.label(moves, Numbered { costs, numbers, from: 0 })?,
         }
         Ok(queue.memory_bytes())
+    }
+
+    fn label(self, moves: impl Scanning, mut label: impl Label) -> Result<(), Interrupted> {
+        for &(state, number) in self.sources {
+            label.starts(state, number);
+        }
+        let mut states = Vec::new();
+        while label.queue().take(&mut states) {
+            let queue = label.queue();
+            if queue.start_of(queue.current()) > self.limit {
+                break;
+            }
+            for piece in states.chunks(PIECE) {
+                self.interrupt.check(STAGE)?;
+                let current = label.queue().current();
+                for &state in piece {
+                    let state = state as usize;
+                    let cost = label.cost(state);
+                    // It was queued by a longer path, and is done.
+                    if label.queue().of(cost) == current {
+                        label.scans(state);
+                        moves.scan((state, cost), &mut label);
+                    }
+                }
+            }
+            states.clear();
+        }
+        Ok(())
     }
 }
 
@@ -114,41 +146,6 @@ trait Label: Visit {
 
     /// The state is a source.
     fn starts(&mut self, state: usize, number: u32);
-}
-
-fn run<const K: u32, const CENTER: bool, L: Label>(
-    graph: &CostGraph,
-    sources: &[(usize, u32)],
-    mut label: L,
-    limit: u64,
-    interrupt: &Interrupt,
-) -> Result<(), Interrupted> {
-    let (scanner, weights) = (graph.scanner(), graph.map().weights());
-    for &(state, number) in sources {
-        label.starts(state, number);
-    }
-    let mut states = Vec::new();
-    while label.queue().take(&mut states) {
-        let queue = label.queue();
-        if queue.start_of(queue.current()) > limit {
-            break;
-        }
-        for piece in states.chunks(PIECE) {
-            interrupt.check(STAGE)?;
-            let current = label.queue().current();
-            for &state in piece {
-                let state = state as usize;
-                let cost = label.cost(state);
-                // It was queued by a longer path, and is done.
-                if label.queue().of(cost) == current {
-                    label.scans(state);
-                    scanner.scan::<K, CENTER>(weights, (state, cost), &mut label);
-                }
-            }
-        }
-        states.clear();
-    }
-    Ok(())
 }
 
 /// Costs alone.

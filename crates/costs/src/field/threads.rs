@@ -7,7 +7,6 @@
 
 use std::{
     hint::spin_loop,
-    num::NonZeroUsize,
     sync::{
         RwLock,
         atomic::{
@@ -20,15 +19,18 @@ use std::{
 
 use mediant_grid::{Interrupt, Interrupted};
 
-use super::{buckets::Buckets, search::STAGE};
-use crate::{graph::CostGraph, scan::Visit};
+use super::{
+    buckets::Buckets,
+    search::{STAGE, Search},
+};
+use crate::scan::{Scanning, Visit};
 
 /// The states that a thread takes at a time.
 const PIECE: usize = 256;
 
 /// All that threads share.
-struct Shared<'s> {
-    graph: &'s CostGraph,
+struct Shared<'s, M> {
+    moves: M,
     costs: &'s [AtomicU64],
     /// For each thread the states of its current bucket, and how many of them are taken.
     states: Box<[(RwLock<Vec<u32>>, AtomicUsize)]>,
@@ -77,18 +79,15 @@ impl Drop for EndsAll<'_> {
 
 /// Dijkstra's algorithm from states of cost 0, up to a limit, on so many threads. Fewer, if no more can be
 /// had. Returns the memory of the queues, in bytes.
-pub(super) fn run<const K: u32, const CENTER: bool>(
-    graph: &CostGraph,
+pub(super) fn run<M: Scanning>(
+    moves: M,
     costs: &mut Vec<u64>,
-    sources: &[(usize, u32)],
-    limit: u64,
-    threads: NonZeroUsize,
-    interrupt: &Interrupt,
+    Search { sources, limit, threads, interrupt, .. }: Search<'_>,
 ) -> Result<usize, Interrupted> {
     // The standard library keeps the memory, there and back.
     let shared_costs: Vec<AtomicU64> = std::mem::take(costs).into_iter().map(AtomicU64::new).collect();
     let shared = Shared {
-        graph,
+        moves,
         costs: &shared_costs,
         states: (0..threads.get()).map(|_| Default::default()).collect(),
         meeting: Meeting {
@@ -104,12 +103,12 @@ pub(super) fn run<const K: u32, const CENTER: bool>(
     let results: Vec<Result<usize, Interrupted>> = thread::scope(|scope| {
         let shared = &shared;
         let spawn = |number| {
-            let work = move || work::<K, CENTER>(shared, number, &[]);
+            let work = move || work(shared, number, &[]);
             thread::Builder::new().spawn_scoped(scope, work).ok()
         };
         let others: Vec<_> = (1..threads.get()).map_while(spawn).collect();
         shared.meeting.threads.store(others.len() + 1, Release);
-        let mine = work::<K, CENTER>(shared, 0, sources);
+        let mine = work(shared, 0, sources);
         let others = others.into_iter().map(|other| match other.join() {
             Ok(result) => result,
             Err(panic) => std::panic::resume_unwind(panic),
@@ -121,15 +120,15 @@ pub(super) fn run<const K: u32, const CENTER: bool>(
 }
 
 /// The work of a thread.
-fn work<const K: u32, const CENTER: bool>(
-    shared: &Shared<'_>,
+fn work<M: Scanning>(
+    shared: &Shared<'_, M>,
     number: usize,
     sources: &[(usize, u32)],
 ) -> Result<usize, Interrupted> {
-    let Shared { graph, costs, states, meeting, limit, interrupt, .. } = shared;
+    let Shared { costs, states, meeting, limit, interrupt, .. } = shared;
+    let moves = shared.moves;
     let _ends_all = EndsAll(meeting);
-    let (scanner, weights) = (graph.scanner(), graph.map().weights());
-    let (least, greatest) = scanner.bounds(graph.map().scale());
+    let (least, greatest) = moves.bounds();
     let mut visit = Lowering { costs, queue: Buckets::new(least, greatest) };
     for &(state, _) in sources {
         visit.relax(0, state, 0);
@@ -168,7 +167,7 @@ fn work<const K: u32, const CENTER: bool>(
                     let state = state as usize;
                     let cost = costs[state].load(Relaxed);
                     if visit.queue.of(cost) == bucket {
-                        scanner.scan::<K, CENTER>(weights, (state, cost), &mut visit);
+                        moves.scan((state, cost), &mut visit);
                     }
                 }
             }

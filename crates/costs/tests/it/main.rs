@@ -9,3 +9,4 @@ mod paths;
 mod refused;
 mod robots;
 mod theta;
+mod walking;

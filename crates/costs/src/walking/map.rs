@@ -1,0 +1,383 @@
+//! Maps to walk on: an elevation for each cell, a pace, and friction.
+
+use std::fmt;
+
+use mediant_grid::{Interrupt, MapId};
+
+use super::{
+    Pace, WalkingError,
+    table::{PaceTable, clip},
+};
+use crate::{
+    error::CostsError,
+    layout::Layout,
+    scale::{check_cell_size, exp2, exponent, floor_log2},
+};
+
+/// A map to walk on: cells with an elevation, which is that of their centers, and the pace by the slope. Cells
+/// without an elevation are blocked.
+///
+/// ```
+/// use mediant_costs::{Pace, WalkingMap};
+/// use mediant_grid::Interrupt;
+///
+/// // A hillside of 20 %, in cells of 30 m, with a lake.
+/// let map = WalkingMap::new((8, 5), (30.0, 30.0), &Pace::Tobler, &Interrupt::NEVER, |x, y| {
+///     ((x, y) != (4, 2)).then_some(6.0 * f64::from(x))
+/// })?;
+/// assert_eq!((map.elevation(3, 0), map.elevation(4, 2)), (Some(18.0), None));
+/// # Ok::<(), mediant_costs::WalkingError>(())
+/// ```
+///
+/// **Integers.** Elevations are kept as integers of 30 binary digits above the lowest one: exactly, where all
+/// are multiples of a power of two above the difference between the highest and the lowest times 2⁻³⁰;
+/// otherwise rounded once. The slope of a piece of a move is a multiple of 2⁻⁴⁰, the time of a unit of length
+/// an integer of 44 digits, and the cost of a move is rounded once, to the map's [unit](Self::unit).
+#[derive(Clone)]
+pub struct WalkingMap {
+    layout: Layout,
+    cell_size: (f64, f64),
+    /// By position, above the lowest; `BLOCKED` for none.
+    heights: Vec<i32>,
+    lowest: f64,
+    /// The unit of heights is 2 to this.
+    height_exponent: i32,
+    friction: Option<Friction>,
+    pace: PaceTable,
+    /// The unit of times a unit of length is 2 to this.
+    time_exponent: i32,
+    /// The unit of costs is 2 to this.
+    exponent: i32,
+    id: MapId,
+}
+
+/// The friction of the cells.
+#[derive(Clone)]
+struct Friction {
+    /// By position.
+    of: Vec<u32>,
+    /// The unit is 2 to this of the times.
+    shift: u32,
+    /// The bounds, in the unit of the times.
+    least: u64,
+    greatest: u64,
+}
+
+/// In place of the height of a blocked cell.
+pub(super) const BLOCKED: i32 = i32::MIN;
+/// The binary digits of heights, and of times.
+const DIGITS: (i32, i32) = (30, 44);
+/// The binary digits of the least unit of heights below 1.
+const FINEST: i32 = 32;
+/// The greatest ratio of two times: each has 23 digits or more.
+const GREATEST_RATIO: f64 = (1_u64 << 20) as f64;
+/// The steepest slope that has an integer.
+const STEEPEST: f64 = (1_u64 << 20) as f64;
+
+/// Bounds of numbers.
+fn widen(bounds: &mut Option<(f64, f64)>, number: f64) {
+    let (least, greatest) = bounds.unwrap_or((number, number));
+    *bounds = Some((least.min(number), greatest.max(number)));
+}
+
+impl WalkingMap {
+    /// The longest side, in cells.
+    pub const MAX_SIDE: u32 = Layout::MAX_SIDE;
+
+    /// The map of `width` × `height` cells, for which `elevation(x, y)` is the elevation, or `None` for a
+    /// blocked cell. It is asked twice for each cell. Elevations and the width and the height of a cell have
+    /// the same unit.
+    ///
+    /// # Errors
+    /// [`WalkingError::Costs`] for sizes, or when it is interrupted; [`WalkingError::Elevation`] for the first
+    /// one, row by row, that is no number; [`WalkingError::Table`], [`WalkingError::Pace`] and
+    /// [`WalkingError::Range`] for a pace that is not one on the slopes of the map.
+    pub fn new(
+        size: (u32, u32),
+        cell_size: (f64, f64),
+        pace: &Pace,
+        interrupt: &Interrupt,
+        elevation: impl Fn(u32, u32) -> Option<f64>,
+    ) -> Result<Self, WalkingError> {
+        Self::with_friction(size, cell_size, pace, interrupt, |x, y| Some((elevation(x, y)?, 0.0)))
+    }
+
+    /// [`new`](Self::new) with a friction for each cell: the time that a unit of length takes there beyond
+    /// that of the pace, from 0 on. It counts by the length in each cell, as costs do. The cost of a straight
+    /// or diagonal move is then that of `r.walk` of GRASS: the time of the pace, plus the mean friction of both
+    /// cells times the length (the friction is that of `r.walk` times its `lambda`). `ground(x, y)` is the
+    /// elevation and the friction of a cell. It is asked three times for each.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new); [`WalkingError::Friction`].
+    pub fn with_friction(
+        (width, height): (u32, u32),
+        cell_size: (f64, f64),
+        pace: &Pace,
+        interrupt: &Interrupt,
+        ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
+    ) -> Result<Self, WalkingError> {
+        const STAGE: &str = "reading the elevations";
+        let size = CostsError::Size { width: width.into(), height: height.into() };
+        let layout = Layout::new(width.into(), height.into()).ok_or(size)?;
+        check_cell_size(cell_size)?;
+        let ground = &ground;
+        let cells = |y: u32| (0..width).filter_map(move |x| Some((x, y, ground(x, y)?)));
+        let (mut elevations, mut frictions) = (None, None);
+        for y in 0..height {
+            interrupt.check(STAGE)?;
+            for (x, y, (elevation, friction)) in cells(y) {
+                if !elevation.is_finite() {
+                    return Err(WalkingError::Elevation { x, y, elevation });
+                }
+                if !(friction.is_finite() && friction >= 0.0) {
+                    return Err(WalkingError::Friction { x, y, friction });
+                }
+                widen(&mut elevations, elevation);
+                widen(&mut frictions, friction);
+            }
+        }
+        let (lowest, highest) = elevations.unwrap_or_default();
+        let height_exponent = (floor_log2(highest - lowest) + 1 - DIGITS.0).max(-FINEST);
+        let mut heights = vec![BLOCKED; layout.len()];
+        for y in 0..height {
+            interrupt.check(STAGE)?;
+            for (x, y, (elevation, _)) in cells(y) {
+                let height = (elevation - lowest) * exp2(-height_exponent);
+                heights[layout.position(x as i32, y as i32)] = height.round() as i32;
+            }
+        }
+        let steepest = steepest(layout, &heights, cell_size, interrupt)? * exp2(height_exponent);
+        let knots = pace.knots(steepest)?;
+        let knots = clip(&knots, steepest);
+        let (least, greatest) =
+            knots.iter().fold((f64::INFINITY, 0.0_f64), |(least, greatest), &(_, time)| {
+                // A time that is not a number is none of the bounds of the others.
+                (if time >= least { least } else { time }, greatest.max(time))
+            });
+        if !(least > 0.0 && greatest.is_finite()) {
+            return Err(WalkingError::Pace { steepest, time: least });
+        }
+        let (smooth, rough) = frictions.unwrap_or_default();
+        let range = WalkingError::Range { least: least + smooth, greatest: greatest + rough, steepest };
+        if steepest > STEEPEST || greatest + rough > (least + smooth) * GREATEST_RATIO {
+            return Err(range);
+        }
+        let time_exponent = floor_log2(greatest + rough) + 1 - DIGITS.1;
+        let vertices = u64::from(width) * u64::from(height);
+        let exponent = exponent(vertices, [least + smooth, greatest + rough], cell_size).ok_or(range)?;
+        let pace = PaceTable::new(&knots, steepest, time_exponent);
+        let mut map = Self {
+            layout,
+            cell_size,
+            heights,
+            lowest,
+            height_exponent,
+            friction: None,
+            pace,
+            time_exponent,
+            exponent,
+            id: MapId::of_size(width, height),
+        };
+        if rough > 0.0 {
+            // Frictions of 32 digits, or as many as the times have.
+            let shift = (floor_log2(rough) - 31 - time_exponent).max(0) as u32;
+            let unit = exp2(-time_exponent - shift as i32);
+            let whole = |friction: f64| (friction * unit).round() as u32;
+            let mut of = vec![0; layout.len()];
+            for y in 0..height {
+                interrupt.check(STAGE)?;
+                for (x, y, (_, friction)) in cells(y) {
+                    of[layout.position(x as i32, y as i32)] = whole(friction);
+                }
+            }
+            let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
+            map.friction = Some(Friction { of, shift, least, greatest });
+        }
+        map.id = map.identity(interrupt)?;
+        Ok(map)
+    }
+
+    fn identity(&self, interrupt: &Interrupt) -> Result<MapId, WalkingError> {
+        let mut id = self.id;
+        let (x, y) = self.cell_size;
+        let exponents = [self.height_exponent, self.time_exponent, self.exponent].map(|of| of as u64);
+        let numbers = [x, y, self.lowest].map(f64::to_bits).into_iter().chain(exponents);
+        for (at, word) in (0..).zip(numbers.chain(self.pace.words().map(|word| word as u64))) {
+            id = id.with_term(u64::MAX - at, [0, word]);
+        }
+        for (band, heights) in self.heights.chunks(1 << 16).enumerate() {
+            interrupt.check("digesting the elevations")?;
+            for (at, &height) in (band << 16..).zip(heights).filter(|(_, height)| **height != BLOCKED) {
+                let friction = self.friction_of(at);
+                id = id.with_term(at as u64, [0, u64::from(friction) << 32 | u64::from(height as u32)]);
+            }
+        }
+        Ok(id)
+    }
+
+    /// The number of columns.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.layout.width()
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.layout.height()
+    }
+
+    /// The width and the height of a cell.
+    #[must_use]
+    pub const fn cell_size(&self) -> (f64, f64) {
+        self.cell_size
+    }
+
+    /// The elevation of a cell, as it is kept; `None` for a blocked cell and outside.
+    #[must_use]
+    pub fn elevation(&self, x: u32, y: u32) -> Option<f64> {
+        let height = self.heights[self.position(x, y)?];
+        (height != BLOCKED).then(|| self.lowest + f64::from(height) * exp2(self.height_exponent))
+    }
+
+    /// The friction of a cell, as it is kept; `None` for a blocked cell and outside.
+    #[must_use]
+    pub fn friction(&self, x: u32, y: u32) -> Option<f64> {
+        let at = self.position(x, y)?;
+        let shift = self.friction.as_ref().map_or(0, |friction| friction.shift);
+        let unit = exp2(self.time_exponent + shift as i32);
+        (self.heights[at] != BLOCKED).then(|| f64::from(self.friction_of(at)) * unit)
+    }
+
+    /// Whether a cell is blocked; those outside the map are.
+    #[must_use]
+    pub fn is_blocked(&self, x: i32, y: i32) -> bool {
+        u32::try_from(x).ok().zip(u32::try_from(y).ok()).is_none_or(|(x, y)| self.elevation(x, y).is_none())
+    }
+
+    /// The bounds of the time of a unit of length on the slopes of the map, friction included.
+    #[must_use]
+    pub fn bounds(&self) -> (f64, f64) {
+        let (least, greatest) = self.times();
+        let unit = exp2(self.time_exponent);
+        (least as f64 * unit, greatest as f64 * unit)
+    }
+
+    /// The unit of the integer costs of moves and paths on it: a power of two.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        exp2(self.exponent)
+    }
+
+    /// The identity of the map: the same for all with the same cells, elevations, frictions and pace.
+    #[must_use]
+    pub const fn id(&self) -> MapId {
+        self.id
+    }
+
+    /// The memory used, in bytes.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        let friction = self.friction.as_ref().map_or(0, |friction| size_of_val(&*friction.of));
+        size_of_val(&*self.heights) + friction + self.pace.memory_bytes()
+    }
+
+    fn position(&self, x: u32, y: u32) -> Option<usize> {
+        (x < self.width() && y < self.height()).then(|| self.layout.position(x as i32, y as i32))
+    }
+
+    fn friction_of(&self, at: usize) -> u32 {
+        self.friction.as_ref().map_or(0, |friction| friction.of[at])
+    }
+
+    pub(super) const fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// By position; `BLOCKED` for none.
+    #[inline]
+    pub(super) fn heights(&self) -> &[i32] {
+        &self.heights
+    }
+
+    /// By position, with the binary digits between its unit and that of the times.
+    #[inline]
+    pub(super) fn frictions(&self) -> Option<(&[u32], u32)> {
+        self.friction.as_ref().map(|friction| (&*friction.of, friction.shift))
+    }
+
+    pub(super) const fn pace(&self) -> &PaceTable {
+        &self.pace
+    }
+
+    /// The bounds of the times of a unit of length, in their unit.
+    pub(super) fn times(&self) -> (u64, u64) {
+        let (least, greatest) =
+            self.friction.as_ref().map_or((0, 0), |friction| (friction.least, friction.greatest));
+        (self.pace.least as u64 + least, self.pace.greatest as u64 + greatest)
+    }
+
+    /// A length, in units of costs a unit of time a unit of length.
+    pub(super) fn units(&self, length: f64) -> f64 {
+        length * exp2(self.time_exponent - self.exponent)
+    }
+
+    /// The unit of heights.
+    pub(super) fn height_unit(&self) -> f64 {
+        exp2(self.height_exponent)
+    }
+}
+
+/// A bound of the slopes of pieces of moves, in units of height a unit of length.
+///
+/// Between four free cells the slope of a bilinear surface is within those of its edges, along x and along y.
+/// Where cells are blocked, a piece may go on past some lines, or lead from corner to corner. Of three lines
+/// that it passes, two are of one kind, so it is long enough that five differences between neighbors are not
+/// exceeded.
+fn steepest(
+    layout: Layout,
+    heights: &[i32],
+    (width, height): (f64, f64),
+    interrupt: &Interrupt,
+) -> Result<f64, WalkingError> {
+    let [mut along_x, mut along_y, mut diagonal] = [0_u32; 3];
+    let mut is_open = true;
+    for y in 0..layout.height() as i32 {
+        interrupt.check("measuring the slopes")?;
+        for x in 0..layout.width() as i32 {
+            let at = |dx: i32, dy: i32| heights[layout.position(x + dx, y + dy)];
+            let own = at(0, 0);
+            is_open &= own != BLOCKED;
+            let difference = |other: i32| {
+                if own == BLOCKED || other == BLOCKED { 0 } else { own.abs_diff(other) }
+            };
+            along_x = along_x.max(difference(at(1, 0)));
+            along_y = along_y.max(difference(at(0, 1)));
+            diagonal = diagonal.max(difference(at(1, 1))).max(difference(at(-1, 1)));
+        }
+    }
+    let [x, y, diagonal] = [along_x, along_y, diagonal].map(f64::from);
+    if is_open {
+        let (x, y) = (x / width, y / height);
+        // What the root loses by rounding is less.
+        return Ok((x * x + y * y).sqrt() * (1.0 + exp2(-50)));
+    }
+    Ok(5.0 * x.max(y).max(diagonal) / width.min(height))
+}
+
+/// Maps with the same cells, elevations, frictions and pace are one.
+impl PartialEq for WalkingMap {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id && self.heights == other.heights
+    }
+}
+
+impl fmt::Debug for WalkingMap {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("WalkingMap")
+            .field("id", &self.id)
+            .field("bounds", &self.bounds())
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,30 @@
+//! Walking over elevation: costs that depend on the direction of a move.
+//!
+//! A cell has an elevation, that of its center; between four centers the ground is bilinear. A move is cut where
+//! it crosses the lines that join the centers of neighboring cells. Each piece has its own slope, from end to
+//! end, and takes the time of the [`Pace`] on that slope; the friction of a cell counts along the length in it.
+//! So a straight or a diagonal move, which is one piece, costs what it costs `r.walk` of GRASS. Longer moves
+//! cost what the ground below them does: `r.walk -k` takes the slope of a knight's move from end to end, so that
+//! it passes a ridge or a hollow as if it were not there.
+//!
+//! Costs are exact integers here, too, and the same on every platform: elevations, slopes and times are integers
+//! (see [`WalkingMap`]), the times come from arithmetic that IEEE 754 rounds alike everywhere and from the `exp`
+//! of the crate `libm`, and the cost of a move is rounded once.
+
+mod astar;
+mod error;
+mod field;
+mod graph;
+mod map;
+mod moves;
+mod pace;
+mod table;
+
+pub use self::{
+    astar::WalkingAStar,
+    error::WalkingError,
+    field::{Heading, WalkingField},
+    graph::WalkingGraph,
+    map::WalkingMap,
+    pace::{Langmuir, Pace},
+};

@@ -1,0 +1,7 @@
+//! Walking over elevation.
+
+mod fields;
+mod ground;
+mod paths;
+mod refused;
+mod walk;
