@@ -221,8 +221,9 @@ impl<const N: usize, const REVERSED: bool> Scanning for OfWalking<'_, N, REVERSE
         let Self(graph) = self;
         let WalkingGraph { map, moves, .. } = graph;
         let (from, heights) = (graph.steps.from(state), map.heights());
+        let frictions = map.frictions();
         // Read when the first move needs them.
-        let mut window = [BLOCKED; N];
+        let (mut window, mut friction_window) = ([BLOCKED; N], [0; N]);
         let mut is_read = false;
         for (by, of) in moves.all.iter().enumerate() {
             let to = from.to(of.vector.x as i8, of.vector.y as i8);
@@ -234,14 +235,17 @@ impl<const N: usize, const REVERSED: bool> Scanning for OfWalking<'_, N, REVERSE
                 for (read, &(dx, dy)) in window.iter_mut().zip(&moves.cells) {
                     *read = heights[from.to(dx, dy)];
                 }
-            }
-            let friction = map.frictions().map(|(frictions, shift)| {
-                move |cell: u16| {
-                    let (dx, dy) = moves.cells[usize::from(cell)];
-                    u64::from(frictions[from.to(dx, dy)]) << shift
+                if let Some((frictions, _)) = frictions {
+                    for (read, &(dx, dy)) in friction_window.iter_mut().zip(&moves.cells) {
+                        *read = frictions[from.to(dx, dy)];
+                    }
                 }
-            });
+            }
             let height = |cell: u16| window[usize::from(cell) % N];
+            let friction = frictions.map(|(_, shift)| {
+                let window = &friction_window;
+                move |cell: u16| u64::from(window[usize::from(cell) % N]) << shift
+            });
             let Some(more) = moves.cost::<REVERSED>(of, map, graph.allowed, height, friction) else {
                 continue;
             };

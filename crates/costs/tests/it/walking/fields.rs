@@ -6,7 +6,7 @@ use mediant_costs::{CostFieldQuery, DirectionCode, Heading, WalkingError, Walkin
 use mediant_grid::{Interrupt, Vertex};
 use mediant_oracle::Rng;
 
-use super::ground::{for_random_grounds, vertices};
+use super::ground::{Way, for_random_grounds, vertices};
 
 const HEADINGS: [Heading; 2] = [Heading::FromSources, Heading::ToSources];
 
@@ -22,7 +22,7 @@ fn times_and_paths_are_those_of_the_oracle() {
         let sources = [source];
         let fields = HEADINGS.map(|heading| field(graph, heading, CostFieldQuery::new(&sources)));
         for field in &fields {
-            let expected = ground.times(graph.rules(), graph.k().get(), source, field.heading());
+            let expected = ground.times(graph.rules(), graph.k().get(), source, field.heading(), Way::Cut);
             for (at, expected) in vertices(graph).zip(expected) {
                 let found = field.get(at);
                 let about = || format!("{:?}, {at} and {source}: {about}", field.heading());

@@ -3,9 +3,20 @@
 use std::{cmp::Reverse, collections::BinaryHeap, sync::Arc};
 
 use mediant_costs::{Heading, Langmuir, Pace, WalkingGraph, WalkingMap};
-use mediant_grid::{Interrupt, PlacementKind, Rules, Vertex};
+use mediant_grid::{Grid, Interrupt, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, Vector};
 use mediant_oracle::{Rng, Shares, WeightedMap, neighborhood, random_weighted, seeds, segment_is_legal};
+
+/// How the time of a move follows from the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// As here.
+    Cut,
+    /// By the slope from end to end, as by `r.walk`.
+    EndToEnd,
+    /// With friction once a move, whatever its length.
+    FrictionOnce,
+}
 
 /// A map, with all that a time follows from.
 pub(super) struct Ground {
@@ -14,10 +25,27 @@ pub(super) struct Ground {
     elevations: Vec<f64>,
     /// The time of a unit of length for a weight of 1.
     friction: f64,
+    /// The weight of no friction.
+    smooth: f64,
     pace: Pace,
 }
 
 impl Ground {
+    /// Of rows of elevations and frictions with the pace of Langmuir. Frictions are multiples of 1/8.
+    pub(super) fn of_rows(
+        elevations: &[Vec<Option<f64>>],
+        frictions: &[Vec<Option<f64>>],
+        (x, y): (f64, f64),
+    ) -> Self {
+        let (width, height) = (elevations[0].len() as u32, elevations.len() as u32);
+        let is_blocked = |x: u32, y: u32| elevations[y as usize][x as usize].is_none();
+        let grid = Grid::from_fn(width, height, is_blocked).expect("a small grid");
+        let weight = |x: u32, y: u32| (frictions[y as usize][x as usize].unwrap_or(0.0) * 8.0) as u32 + 1;
+        let elevations = elevations.iter().flatten().map(|of| of.unwrap_or(f64::NAN)).collect();
+        let map = WeightedMap::from_fn(grid, weight).with_cell_size(x, y);
+        Self { map, elevations, friction: 0.125, smooth: 1.0, pace: Pace::Langmuir(Langmuir::default()) }
+    }
+
     fn random(seed: u64) -> (Self, String) {
         let (map, about) = random_weighted(seed);
         let mut rng = Rng::new(seed ^ 0xE1E7);
@@ -46,7 +74,7 @@ impl Ground {
         let greatest = f64::from(*map.weights().iter().max().expect("a cell"));
         let friction = if rng.below(3) == 0 { 0.0 } else { 5.0 / greatest };
         let about = format!("elevation {kind}, {pace:?}, friction {friction}, seed {seed}: {about}\n{map}");
-        (Self { map, elevations, friction, pace }, about)
+        (Self { map, elevations, friction, smooth: 0.0, pace }, about)
     }
 
     fn elevation(&self, x: i32, y: i32) -> Option<f64> {
@@ -58,7 +86,7 @@ impl Ground {
         let grid = self.map.grid();
         let ground = |x: u32, y: u32| {
             let (x, y) = (x as i32, y as i32);
-            Some((self.elevation(x, y)?, f64::from(self.map.weight(x, y)?) * self.friction))
+            Some((self.elevation(x, y)?, (f64::from(self.map.weight(x, y)?) - self.smooth) * self.friction))
         };
         let size = (grid.width(), grid.height());
         let map =
@@ -72,7 +100,7 @@ impl Ground {
     }
 
     /// The time of a legal move.
-    fn time(&self, from: Vertex, shares: &Shares) -> f64 {
+    fn time(&self, from: Vertex, shares: &Shares, way: Way) -> f64 {
         let v = shares.by();
         let (dx, dy) = (f64::from(v.x), f64::from(v.y));
         let (width, height) = self.map.cell_size();
@@ -92,6 +120,9 @@ impl Ground {
             let ends = [x.floor(), x.ceil()].map(|x| self.elevation(x as i32, y));
             cuts.push((t, ends[0].zip(ends[1]).map(|(low, high)| low + (high - low) * (x - x.floor()))));
         }
+        if way == Way::EndToEnd {
+            cuts.truncate(2);
+        }
         cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
         let cuts: Vec<(f64, f64)> =
             cuts.into_iter().filter_map(|(t, elevation)| Some((t, elevation?))).collect();
@@ -101,11 +132,19 @@ impl Ground {
             piece * self.pace.time((after - before) / piece)
         });
         let friction = shares.integral(&self.map, from).expect("a legal move has free cells").mean();
-        pieces.sum::<f64>() + length * friction * self.friction
+        let length = if way == Way::FrictionOnce { width } else { length };
+        pieces.sum::<f64>() + length * (friction - self.smooth) * self.friction
     }
 
     /// The times of all vertices from a source, or to it, row by row.
-    pub(super) fn times(&self, rules: Rules, k: u32, source: Vertex, heading: Heading) -> Vec<Option<f64>> {
+    pub(super) fn times(
+        &self,
+        rules: Rules,
+        k: u32,
+        source: Vertex,
+        heading: Heading,
+        way: Way,
+    ) -> Vec<Option<f64>> {
         let grid = self.map.grid();
         let (width, height) = (grid.width(), grid.height());
         let index = |at: Vertex| (at.y as u32 * width + at.x as u32) as usize;
@@ -131,7 +170,7 @@ impl Ground {
                     continue;
                 }
                 let begin = if heading == Heading::FromSources { at } else { to };
-                let time = time + self.time(begin, shares);
+                let time = time + self.time(begin, shares, way);
                 if times[index(to)].is_none_or(|known| time < known) {
                     times[index(to)] = Some(time);
                     queue.push(Reverse((time.to_bits(), to.x, to.y)));

@@ -1,5 +1,6 @@
 //! Walking over elevation.
 
+mod creases;
 mod fields;
 mod ground;
 mod paths;
