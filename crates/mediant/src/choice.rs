@@ -146,8 +146,8 @@ impl Space {
         if self.has_costs() { Choice::ON_COSTS } else { Choice::for_one_path(self.motion()) }
     }
 
-    /// A shortest path, or a cheapest one where cells have costs, by an engine that prepares little; `None` if there is none. For more than a few
-    /// paths make a [`planner`](Self::planner).
+    /// A shortest path, or a cheapest one where cells have costs, by an engine that prepares little; `None`
+    /// if there is none. For more than a few paths make a [`planner`](Self::planner).
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.

@@ -73,9 +73,9 @@ impl Space {
         self.fields()?.field(sources)
     }
 
-    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells (or costs):
-    /// what an agent can reach, if it goes no further. A vertex at exactly that distance is within it: all limits
-    /// leave room for the rounding of lengths, one part in 2³¹.
+    /// The distances of those vertices whose distance to the nearest source is at most `limit` cells (or
+    /// costs): what an agent can reach, if it goes no further. A vertex at exactly that distance is within
+    /// it: all limits leave room for the rounding of lengths, one part in 2³¹.
     ///
     /// # Errors
     /// As for [`Fields::field_within`].
@@ -385,8 +385,8 @@ impl Field {
         of_each!(&self.inner, field => field.path_from(at))
     }
 
-    /// The source to which that path leads. Where cells have costs it is, of several that are equally near, the
-    /// first one in the list; the path may lead to another one.
+    /// The source to which that path leads. Where cells have costs it is, of several that are equally near,
+    /// the first one in the list; the path may lead to another one.
     #[must_use]
     pub fn nearest_source(&self, at: impl Into<Vertex>) -> Option<Vertex> {
         let at = at.into();

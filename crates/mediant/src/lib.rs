@@ -130,8 +130,8 @@
 //!
 //! # Costs of cells
 //!
-//! [`Map::costs`] gives each cell a cost a unit of length: terrain, friction, the distance to walls. A space of
-//! [`Costs`] answers the same queries, and has the same fields, by A* and Dijkstra's algorithm, with exact
+//! [`Map::costs`] gives each cell a cost a unit of length: terrain, friction, the distance to walls. A space
+//! of [`Costs`] answers the same queries, and has the same fields, by A* and Dijkstra's algorithm, with exact
 //! costs.
 //!
 //! ```

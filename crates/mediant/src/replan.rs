@@ -32,8 +32,8 @@ impl Planner {
     ///    kept without a search. Was it a shortest path before, it is one now.
     /// 3. Otherwise a new one is searched, and taken only if it is shorter, by more than 2⁻³⁰ of the length.
     ///
-    /// Where cells have costs, the second rule is left out, and what counts is the cost in the space after the
-    /// change.
+    /// Where cells have costs, the second rule is left out, and what counts is the cost in the space after
+    /// the change.
     ///
     /// ```
     /// use mediant::{Engine, Map, Motion, Replanned};

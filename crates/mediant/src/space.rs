@@ -257,9 +257,9 @@ impl Space {
         }
     }
 
-    /// The vertices that can be reached from `start`, row by row, with their distances: in cells (or costs) by
-    /// [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`]. For more than one source, a limit, paths and
-    /// directions see [`field`](Self::field).
+    /// The vertices that can be reached from `start`, row by row, with their distances: in cells (or costs)
+    /// by [`Engine::Dijkstra`], in moves by [`Engine::Wavefront`]. For more than one source, a limit, paths
+    /// and directions see [`field`](Self::field).
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};

@@ -136,9 +136,9 @@ impl Answer {
     }
 
     /// The certificate of the path: no path at any angle between the same two vertices under the same rules
-    /// is shorter than this, in cells. It is the length of the path divided by the
-    /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer. `None`
-    /// without a path, and on a cost surface. The length divided by it says how far the path can be from the best at most.
+    /// is shorter than this, in cells. It is the length of the path divided by the [bound](Guarantee::bound)
+    /// of the engine's guarantee, or the straight line if that is longer. `None` without a path, and on a
+    /// cost surface. The length divided by it says how far the path can be from the best at most.
     ///
     /// ```
     /// use mediant_grid::{DiagonalGap, Rules};

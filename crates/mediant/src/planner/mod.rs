@@ -197,7 +197,8 @@ impl Planner {
     }
 
     /// The length of the path that [`find`](Self::find) finds, in cells, or where cells have costs its cost;
-    /// `None` if there is none. On hub labels this takes less time than the path. A planner that smooths its paths measures the smoothed one.
+    /// `None` if there is none. On hub labels this takes less time than the path. A planner that smooths its
+    /// paths measures the smoothed one.
     ///
     /// Over N(k), shortest paths have the same length here, in a [`Table`](crate::Table) and in a
     /// [`Field`](crate::Field), to the last bit, whatever the engine: [`Guarantee::length`]. It differs from

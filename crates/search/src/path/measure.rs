@@ -78,8 +78,8 @@ impl Path {
     /// than the others unless the length is a multiple of `spacing`; a step below a billionth of `spacing`
     /// is left out. A path of length 0 has one point, one without waypoints none.
     ///
-    /// The points are made one by one. For a small spacing there are many of them: at least the length divided
-    /// by `spacing`.
+    /// The points are made one by one. For a small spacing there are many of them: at least the length
+    /// divided by `spacing`.
     ///
     /// ```
     /// use mediant_search::Path;

@@ -33,9 +33,9 @@ pub(crate) use self::{
 /// map. Places on it are vertices, whole or not: between centers, (x, y) is the middle of cell (x, y), at
 /// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
 ///
-/// **Cost and length** are one number, unless the path is one on a cost surface, where each cell has a cost of
-/// its own: then [`cost`](Self::cost) is that of the surface, and [`length`](Self::length) the length all the
-/// same. Paths are equal if they have the same waypoints and cost.
+/// **Cost and length** are one number, unless the path is one on a cost surface, where each cell has a cost
+/// of its own: then [`cost`](Self::cost) is that of the surface, and [`length`](Self::length) the length all
+/// the same. Paths are equal if they have the same waypoints and cost.
 ///
 /// Waypoints of maps are less than 2³¹ apart along each axis. Where they are not, [`moves`](Self::moves) and
 /// [`touched_cells`](Self::touched_cells) pass over the segment; all else is right there too.

@@ -71,10 +71,11 @@ pub struct Stopped {
     /// else the path to the vertex nearest to a goal among those that the search expanded within the limit on
     /// the cost, by h_k (at k = ∞ by the straight line), the first of several. At least the start.
     pub best: Path,
-    /// A lower bound on the cost of the path that was sought, in cells (on a cost surface in its unit): no path over N(k) between the ends
-    /// that were asked for, by an engine of any-angle paths no legal path, is shorter. Up to the rounding of
-    /// [`Cost`]. (Of a path that was found, [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells
-    /// another bound: on all paths at any angle between its ends.)
+    /// A lower bound on the cost of the path that was sought, in cells (on a cost surface in its unit): no
+    /// path over N(k) between the ends that were asked for, by an engine of any-angle paths no legal path, is
+    /// shorter. Up to the rounding of [`Cost`]. (Of a path that was found,
+    /// [`Guarantee::lower_bound`](crate::Guarantee::lower_bound) tells another bound: on all paths at any
+    /// angle between its ends.)
     pub lower_bound: f64,
 }
 
@@ -109,9 +110,9 @@ impl Limits {
         Self::default()
     }
 
-    /// The greatest cost of a path, in cells; on a cost surface in its own unit. A path that costs exactly as much is within it: costs are
-    /// rounded, so all limits leave room for a factor of 1 + 2⁻³¹. An engine that guarantees nothing of its
-    /// paths may miss one that costs nearly as much.
+    /// The greatest cost of a path, in cells; on a cost surface in its own unit. A path that costs exactly as
+    /// much is within it: costs are rounded, so all limits leave room for a factor of 1 + 2⁻³¹. An engine
+    /// that guarantees nothing of its paths may miss one that costs nearly as much.
     #[must_use]
     pub fn cost(mut self, cells: f64) -> Self {
         self.cost = Some(cells);

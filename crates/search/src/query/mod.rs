@@ -113,8 +113,8 @@ impl Query {
         Ends::new(start, goal).into()
     }
 
-    /// The shortest of the paths from any of the starts to any of the goals, on a cost surface the cheapest. Of paths of the same cost, the
-    /// one whose goal comes first in the list, then the one whose start does.
+    /// The shortest of the paths from any of the starts to any of the goals, on a cost surface the cheapest.
+    /// Of paths of the same cost, the one whose goal comes first in the list, then the one whose start does.
     #[must_use]
     pub fn between<S: Into<Vertex>, G: Into<Vertex>>(
         starts: impl IntoIterator<Item = S>,

@@ -374,7 +374,8 @@ impl Search {
         if self.has_begun && !self.is_backward() { planner.path_to(at) } else { None }
     }
 
-    /// A lower bound on the cost of the answer, in cells or in the unit of the cost surface; see [`Stopped::lower_bound`].
+    /// A lower bound on the cost of the answer, in cells or in the unit of the cost surface; see
+    /// [`Stopped::lower_bound`].
     #[must_use]
     pub fn lower_bound(&self) -> f64 {
         /// Costs are rounded sums.
