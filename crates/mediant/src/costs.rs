@@ -164,9 +164,18 @@ impl Costs {
         cells: impl IntoIterator<Item = (C, Option<f64>)>,
     ) -> Result<Self, Error> {
         let cells = self.map.check_cells(cells)?;
+        if self.has(&cells) {
+            return Ok(self.clone());
+        }
         let surface = Arc::new(self.surface.edit(cells.iter().copied())?);
         let map = self.map.edit_cells(cells.into_iter().map(|(x, y, cost)| ((x, y), cost.is_none())))?;
         Ok(Self { map, surface })
+    }
+
+    /// Whether an edit changes nothing: an equal version beside this one would be held as long as the index of
+    /// either, and the next edit could not take its memory.
+    pub(crate) fn has(&self, cells: &[(u32, u32, Option<f64>)]) -> bool {
+        cells.iter().all(|&(x, y, cost)| self.surface.cost(x, y) == cost)
     }
 
     /// These costs with rules of motion and a k, from 2 to 8.

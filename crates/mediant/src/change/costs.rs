@@ -30,6 +30,9 @@ impl Change {
 
     pub(super) fn with_edits(mut self, cells: Edits) -> Result<Self, Error> {
         let surface = self.surface.as_ref().ok_or(SetupError::WithoutCosts)?;
+        if surface.costs.has(&cells) {
+            return Ok(self);
+        }
         let edited = Arc::new(surface.costs.surface().edit(cells.iter().copied())?);
         self.with_costs.extend(cells.iter().map(|&(x, y, _)| Rectangle::new(x, y, 1, 1)));
         self.change = self.change.edit_cells(cells.into_iter().map(|(x, y, cost)| (x, y, cost.is_none())));
