@@ -10,13 +10,14 @@ use mediant_search::{
 };
 
 use super::{
+    Heading,
     graph::{OfWalking, ROOMS, WalkingGraph},
     map::BLOCKED,
 };
 use crate::scan::{Scanning, Visit};
 
-/// A* over elevation (Hart, Nilsson & Raphael 1968). Its heuristic is h_k at the greatest speed, on the slopes
-/// of the map, and with the least friction. Without it, it is Dijkstra's algorithm.
+/// A* over elevation (Hart, Nilsson & Raphael 1968). Its heuristic is h_k at the greatest speed, on the
+/// slopes of the map, and with the least friction. Without it, it is Dijkstra's algorithm.
 ///
 /// The cost of its paths is [`WalkingGraph::path_cost`]; [`Path::cost`] is their length.
 ///
@@ -62,8 +63,8 @@ impl WalkingAStar {
         }
     }
 
-    /// Dijkstra's algorithm (1959). For the costs of all vertices, [`WalkingField`](super::WalkingField) is much
-    /// faster.
+    /// Dijkstra's algorithm (1959). For the costs of all vertices, [`WalkingField`](super::WalkingField) is
+    /// much faster.
     #[must_use]
     pub fn dijkstra(graph: Arc<WalkingGraph>) -> Self {
         Self { is_guided: false, ..Self::new(graph) }
@@ -116,7 +117,8 @@ impl WalkingAStar {
             observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
             observer.reached(at, node.g);
             let mut relaxing = Relaxing { graph, goal, is_guided, at, nodes, open, observer };
-            OfWalking::<N, false>(graph).scan((entry.id().index(), node.g.to_bits()), &mut relaxing);
+            OfWalking::<N>::new(graph, Heading::FromSources)
+                .scan((entry.id().index(), node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
     }
@@ -208,9 +210,8 @@ impl Planner for WalkingAStar {
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if self.status == SearchStatus::Searching {
             self.status = match self.graph.k().get() {
-                0..=3 => self.run::<{ ROOMS[0] }>(observer),
-                4..=5 => self.run::<{ ROOMS[1] }>(observer),
-                _ => self.run::<{ ROOMS[2] }>(observer),
+                0..=5 => self.run::<{ ROOMS[0] }>(observer),
+                _ => self.run::<{ ROOMS[1] }>(observer),
             };
         }
         Ok(self.status)

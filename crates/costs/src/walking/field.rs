@@ -31,8 +31,8 @@ pub enum Heading {
 /// The cost of the cheapest path from the nearest source to every vertex, or from every vertex to it, walking
 /// over elevation. It takes 8 bytes a vertex, like a [`CostField`](crate::CostField), and is as exact.
 ///
-/// **Ties:** of the moves that lead towards a source on a cheapest path it takes the one with the lowest index
-/// in N(k); of equally near sources the allocation names the one with the least number.
+/// **Ties:** of the moves that lead towards a source on a cheapest path it takes the one with the lowest
+/// index in N(k); of equally near sources the allocation names the one with the least number.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -80,8 +80,8 @@ impl WalkingField {
         Self::on_threads(graph, heading, query, NonZeroUsize::MIN, interrupt)
     }
 
-    /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A query
-    /// for the allocation is answered on one.
+    /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A
+    /// query for the allocation is answered on one.
     ///
     /// # Errors
     /// As for [`new`](Self::new).
@@ -110,10 +110,7 @@ impl WalkingField {
             threads,
             interrupt,
         };
-        let Labels { mut costs, sources: allocation, queue_bytes } = match heading {
-            Heading::FromSources => run::<false>(&graph, search)?,
-            Heading::ToSources => run::<true>(&graph, search)?,
-        };
+        let Labels { mut costs, sources: allocation, queue_bytes } = run(&graph, heading, search)?;
         costs.shrink_to_fit();
         Ok(Self { graph, heading, costs, allocation, sources: query.sources.into(), queue_bytes })
     }
@@ -185,8 +182,8 @@ impl WalkingField {
     }
 
     /// The move from a vertex towards its nearest source on a cheapest path: its first one of a field to the
-    /// sources, its last one, turned around, of a field from them. `None` at a source, and where the vertex is
-    /// not in the field.
+    /// sources, its last one, turned around, of a field from them. `None` at a source, and where the vertex
+    /// is not in the field.
     #[must_use]
     pub fn direction(&self, at: Vertex) -> Option<Vector> {
         self.towards(self.place(at)?).map(|(v, _)| v)
@@ -199,17 +196,18 @@ impl WalkingField {
             let to = self.graph.target(at, of.vector);
             let rest = self.costs[to];
             // A path from the source comes by the move against this one.
-            let between = || match self.heading {
-                Heading::FromSources => self.graph.cost_of::<true>(of, at),
-                Heading::ToSources => self.graph.cost_of::<false>(of, at),
+            let heading = match self.heading {
+                Heading::FromSources => Heading::ToSources,
+                Heading::ToSources => Heading::FromSources,
             };
+            let between = || self.graph.cost_of(of, heading, at);
             (rest < cost && between()? == cost - rest).then_some((of.vector, to))
         })
     }
 
-    /// The cheapest path between a vertex and its nearest source, in its direction: of a field from the sources
-    /// it begins at the source and ends at the vertex, of a field to them it begins at the vertex. Its
-    /// waypoints are where the move changes. `None` where the vertex is not in the field.
+    /// The cheapest path between a vertex and its nearest source, in its direction: of a field from the
+    /// sources it begins at the source and ends at the vertex, of a field to them it begins at the vertex.
+    /// Its waypoints are where the move changes. `None` where the vertex is not in the field.
     #[must_use]
     pub fn path(&self, at: Vertex) -> Option<Path> {
         let mut place = self.place(at)?;
@@ -250,9 +248,9 @@ impl WalkingField {
         })
     }
 
-    /// For each vertex, row by row, the cost of the cheapest path over it from a source of one field to a source
-    /// of the other. Those of little more than the least are a *corridor*. Infinity where a vertex is not in
-    /// both fields.
+    /// For each vertex, row by row, the cost of the cheapest path over it from a source of one field to a
+    /// source of the other. Those of little more than the least are a *corridor*. Infinity where a vertex is
+    /// not in both fields.
     ///
     /// # Errors
     /// [`WalkingError::Heading`] unless one field is from its sources and the other to them;
@@ -274,8 +272,7 @@ impl WalkingField {
     }
 }
 
-/// Searches from sources by the moves, or by those against them.
-fn run<const REVERSED: bool>(graph: &WalkingGraph, search: Search<'_>) -> Result<Labels, Interrupted> {
+fn run(graph: &WalkingGraph, heading: Heading, search: Search<'_>) -> Result<Labels, Interrupted> {
     let mut costs = Vec::with_capacity(graph.map().heights().len());
     for piece in graph.map().heights().chunks(1 << 18) {
         search.interrupt.check("filling memory")?;
@@ -283,8 +280,7 @@ fn run<const REVERSED: bool>(graph: &WalkingGraph, search: Search<'_>) -> Result
         costs.extend(piece.iter().map(|&height| if height == BLOCKED { 0 } else { NONE }));
     }
     match graph.k().get() {
-        0..=3 => search.run(costs, OfWalking::<{ ROOMS[0] }, REVERSED>(graph)),
-        4..=5 => search.run(costs, OfWalking::<{ ROOMS[1] }, REVERSED>(graph)),
-        _ => search.run(costs, OfWalking::<{ ROOMS[2] }, REVERSED>(graph)),
+        0..=5 => search.run(costs, OfWalking::<{ ROOMS[0] }>::new(graph, heading)),
+        _ => search.run(costs, OfWalking::<{ ROOMS[1] }>::new(graph, heading)),
     }
 }

@@ -7,7 +7,7 @@ use mediant_moves::{Cost, CostTable, FiniteK, Vector};
 use mediant_search::{End, Path, QueryError};
 
 use super::{
-    WalkingError,
+    Heading, WalkingError,
     map::{BLOCKED, WalkingMap},
     moves::{Move, Moves},
 };
@@ -31,10 +31,10 @@ use crate::{
 /// let hill = |x: u32, _| Some(f64::from(x));
 /// let map = Arc::new(WalkingMap::new((3, 2), (10.0, 10.0), &pace, &Interrupt::NEVER, hill)?);
 /// let graph = WalkingGraph::new(map, Rules::Center(CornerRule::Always), FiniteK::N16)?;
-/// let time = |x, y, dx, dy| graph.move_cost(Vertex::new(x, y), Vector::new(dx, dy)).map(|cost| graph.to_f64(cost));
+/// let time = |x, dx| graph.move_cost(Vertex::new(x, 0), Vector::new(dx, 0)).map(|cost| graph.to_f64(cost));
 /// // 10 m at 0.72 s, and 6 s for the meter up; 1.9998 s less downhill.
-/// assert!(time(0, 0, 1, 0).is_some_and(|time| (time - 13.2).abs() < 1e-6));
-/// assert!(time(1, 0, -1, 0).is_some_and(|time| (time - 5.2002).abs() < 1e-6));
+/// assert!(time(0, 1).is_some_and(|time| (time - 13.2).abs() < 1e-6));
+/// assert!(time(1, -1).is_some_and(|time| (time - 5.2002).abs() < 1e-6));
 /// # Ok::<(), mediant_costs::WalkingError>(())
 /// ```
 #[derive(Clone, Debug)]
@@ -129,7 +129,7 @@ impl WalkingGraph {
     pub fn move_cost(&self, from: Vertex, v: Vector) -> Option<Cost> {
         let at = self.position(from).filter(|_| self.is_free(from))?;
         let of = self.moves.all.iter().find(|known| known.vector == v)?;
-        self.cost_of::<false>(of, at).map(Cost::from_bits)
+        self.cost_of(of, Heading::FromSources, at).map(Cost::from_bits)
     }
 
     /// The cost of a path over N(k) in its direction, whose waypoints are joined by one move each, repeated;
@@ -170,8 +170,9 @@ impl WalkingGraph {
         &self.moves
     }
 
-    /// The cost of a move from a position, or of the move against it; `None` if it is not legal.
-    pub(super) fn cost_of<const REVERSED: bool>(&self, of: &Move, at: usize) -> Option<u64> {
+    /// The cost of a move from a position, or, towards sources, of the move against it, which ends there;
+    /// `None` if it is not legal.
+    pub(super) fn cost_of(&self, of: &Move, heading: Heading, at: usize) -> Option<u64> {
         let (from, cells) = (self.steps.from(at), &self.moves.cells);
         let place = |cell: u16| {
             let (dx, dy) = cells[usize::from(cell)];
@@ -180,7 +181,7 @@ impl WalkingGraph {
         let height = |cell| self.map.heights()[place(cell)];
         let friction =
             self.map.frictions().map(|(of, shift)| move |cell| u64::from(of[place(cell)]) << shift);
-        self.moves.cost::<REVERSED>(of, &self.map, self.allowed, height, friction)
+        self.moves.cost((of, heading), &self.map, self.allowed, height, friction)
     }
 
     /// The position to which a vector leads from another one.
@@ -202,23 +203,32 @@ impl WalkingGraph {
     }
 }
 
-/// The moves of a graph, or those against them, with room for `N` cells around a vertex.
+/// The moves of a graph, with room for `N` cells around a vertex.
 #[derive(Clone, Copy)]
-pub(super) struct OfWalking<'g, const N: usize, const REVERSED: bool>(pub(super) &'g WalkingGraph);
+pub(super) struct OfWalking<'g, const N: usize> {
+    graph: &'g WalkingGraph,
+    heading: Heading,
+}
 
-/// At least as many cells as the moves of N(k) read: up to k = 3, up to k = 5, and up to k = 8.
-pub(super) const ROOMS: [usize; 3] = [1 << 4, 1 << 6, 1 << 10];
+impl<'g, const N: usize> OfWalking<'g, N> {
+    pub(super) const fn new(graph: &'g WalkingGraph, heading: Heading) -> Self {
+        Self { graph, heading }
+    }
+}
 
-impl<const N: usize, const REVERSED: bool> Scanning for OfWalking<'_, N, REVERSED> {
+/// At least as many cells as the moves of N(k) read, up to k = 5 and up to k = 8.
+pub(super) const ROOMS: [usize; 2] = [1 << 6, 1 << 10];
+
+impl<const N: usize> Scanning for OfWalking<'_, N> {
     fn bounds(self) -> (u64, u64) {
-        let Self(graph) = self;
+        let Self { graph, .. } = self;
         let least = graph.moves.all.iter().map(|of| of.least).min();
         (least.unwrap_or(1), graph.moves.greatest(&graph.map))
     }
 
     #[inline]
     fn scan(self, (state, cost): (usize, u64), visit: &mut impl Visit) {
-        let Self(graph) = self;
+        let Self { graph, heading } = self;
         let WalkingGraph { map, moves, .. } = graph;
         let (from, heights) = (graph.steps.from(state), map.heights());
         let frictions = map.frictions();
@@ -246,12 +256,29 @@ impl<const N: usize, const REVERSED: bool> Scanning for OfWalking<'_, N, REVERSE
                 let window = &friction_window;
                 move |cell: u16| u64::from(window[usize::from(cell) % N]) << shift
             });
-            let Some(more) = moves.cost::<REVERSED>(of, map, graph.allowed, height, friction) else {
+            let Some(more) = moves.cost((of, heading), map, graph.allowed, height, friction) else {
                 continue;
             };
             if cost + more < known {
                 visit.relax(by, to, cost + more);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::walking::Pace;
+
+    #[test]
+    fn there_is_room_for_all_cells() {
+        let interrupt = &mediant_grid::Interrupt::NEVER;
+        let map = WalkingMap::new((3, 3), (1.0, 1.0), &Pace::Tobler, interrupt, |_, _| Some(0.0));
+        let map = map.expect("flat ground");
+        for k in 2..=WalkingGraph::MAX_K {
+            let moves = Moves::new(FiniteK::new(k).expect("a small k"), &map).expect("a small k");
+            assert!(moves.cells.len() <= ROOMS[usize::from(k > 5)], "k = {k}: {}", moves.cells.len());
         }
     }
 }

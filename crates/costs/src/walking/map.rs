@@ -14,8 +14,8 @@ use crate::{
     scale::{check_cell_size, exp2, exponent, floor_log2},
 };
 
-/// A map to walk on: cells with an elevation, which is that of their centers, and the pace by the slope. Cells
-/// without an elevation are blocked.
+/// A map to walk on: cells with an elevation, which is that of their centers, and the pace by the slope.
+/// Cells without an elevation are blocked.
 ///
 /// ```
 /// use mediant_costs::{Pace, WalkingMap};
@@ -89,8 +89,8 @@ impl WalkingMap {
     /// the same unit.
     ///
     /// # Errors
-    /// [`WalkingError::Costs`] for sizes, or when it is interrupted; [`WalkingError::Elevation`] for the first
-    /// one, row by row, that is no number; [`WalkingError::Table`], [`WalkingError::Pace`] and
+    /// [`WalkingError::Costs`] for sizes, or when it is interrupted; [`WalkingError::Elevation`] for the
+    /// first one, row by row, that is no number; [`WalkingError::Table`], [`WalkingError::Pace`] and
     /// [`WalkingError::Range`] for a pace that is not one on the slopes of the map.
     pub fn new(
         size: (u32, u32),
@@ -104,9 +104,9 @@ impl WalkingMap {
 
     /// [`new`](Self::new) with a friction for each cell: the time that a unit of length takes there beyond
     /// that of the pace, from 0 on. It counts by the length in each cell, as costs do. The cost of a straight
-    /// or diagonal move is then that of `r.walk` of GRASS: the time of the pace, plus the mean friction of both
-    /// cells times the length (the friction is that of `r.walk` times its `lambda`). `ground(x, y)` is the
-    /// elevation and the friction of a cell. It is asked three times for each.
+    /// or diagonal move is then that of `r.walk` of GRASS: the time of the pace, plus the mean friction of
+    /// both cells times the length (the friction is that of `r.walk` times its `lambda`). `ground(x, y)` is
+    /// the elevation and the friction of a cell. It is asked three times for each.
     ///
     /// # Errors
     /// As for [`new`](Self::new); [`WalkingError::Friction`].

@@ -11,6 +11,7 @@ use mediant_grid::PlacementKind;
 use mediant_moves::{Cost, FiniteK, KError, Neighborhood, Vector};
 
 use super::{
+    Heading,
     map::{BLOCKED, WalkingMap},
     table::SLOPE_DIGITS,
 };
@@ -30,8 +31,8 @@ pub(super) struct Move {
     cuts: Box<[Cut]>,
     /// The cells that it crosses.
     parts: Box<[CellPart]>,
-    /// The two cells that it touches in the corner through which it passes; where there are none, the cell where
-    /// it begins.
+    /// The two cells that it touches in the corner through which it passes; where there are none, the cell
+    /// where it begins.
     touched: [u16; 2],
     /// By the shares of a piece: the slope for a difference of 1 of its heights at the cuts, in fixed point.
     slopes: Box<[u64]>,
@@ -115,12 +116,12 @@ impl Moves {
         Cost::from_bits(known.map_or(0, |known| known.least))
     }
 
-    /// The cost of a move, by the heights of the cells around its beginning, or of the move against it; `None`
-    /// if it is not legal. `allowed` is the rule of corners, `friction` that of a cell.
+    /// The cost of a move, by the heights of the cells around its beginning, or, towards sources, of the move
+    /// against it; `None` if it is not legal. `allowed` is the rule of corners, `friction` that of a cell.
     #[inline]
-    pub(super) fn cost<const REVERSED: bool>(
+    pub(super) fn cost(
         &self,
-        of: &Move,
+        (of, heading): (&Move, Heading),
         map: &WalkingMap,
         allowed: u8,
         height: impl Fn(u16) -> i32,
@@ -138,7 +139,7 @@ impl Moves {
             Some(friction) => of.parts.iter().map(|part| u64::from(part.halves) * friction(part.cell)).sum(),
             None => 0,
         };
-        let pace = map.pace();
+        let (pace, is_reversed) = (map.pace(), heading == Heading::ToSources);
         let (mut before, mut length) = (of.shares * at(0), 0);
         for cut in &of.cuts {
             length += cut.length;
@@ -147,7 +148,7 @@ impl Moves {
                 continue;
             }
             let here = cut.weights[0] * at(near) + cut.weights[1] * at(far);
-            let rise = if REVERSED { before - here } else { here - before };
+            let rise = if is_reversed { before - here } else { here - before };
             let product = u128::from(rise.unsigned_abs()) * u128::from(of.slopes[usize::from(length) - 1]);
             // As odd as the rise: a move costs the same from both of its ends.
             let steep = (((product >> (self.shift - 1)) + 1) >> 1).min(u128::from(pace.steepest())) as i64;

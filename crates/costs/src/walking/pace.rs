@@ -2,8 +2,8 @@
 
 use super::WalkingError;
 
-/// The time that a unit of horizontal length takes, by the slope: the rise over the horizontal length, below 0
-/// downhill.
+/// The time that a unit of horizontal length takes, by the slope: the rise over the horizontal length, below
+/// 0 downhill.
 ///
 /// Costs are then times, in the unit of the pace: seconds, where it is seconds a meter, as those here are.
 ///

@@ -53,8 +53,8 @@ fn fixed(slope: f64) -> i64 {
 }
 
 impl PaceTable {
-    /// The table of some knots, of which there is one at least, in times of the unit 2 to `exponent`. They end at
-    /// the steepest slope.
+    /// The table of some knots, of which there is one at least, in times of the unit 2 to `exponent`. They
+    /// end at the steepest slope.
     pub(super) fn new(knots: &[(f64, f64)], steepest: f64, exponent: i32) -> Self {
         let unit = exp2(-exponent);
         let time = |time: f64| (time * unit).round() as i64;
