@@ -172,8 +172,8 @@ impl Costs {
         Ok(Self { map, surface })
     }
 
-    /// Whether an edit changes nothing: an equal version beside this one would be held as long as the index of
-    /// either, and the next edit could not take its memory.
+    /// Whether an edit changes nothing: an equal version beside this one would be held as long as the index
+    /// of either, and the next edit could not take its memory.
     pub(crate) fn has(&self, cells: &[(u32, u32, Option<f64>)]) -> bool {
         cells.iter().all(|&(x, y, cost)| self.surface.cost(x, y) == cost)
     }

@@ -80,6 +80,31 @@ fn widen(bounds: &mut Option<(f64, f64)>, number: f64) {
     *bounds = Some((least.min(number), greatest.max(number)));
 }
 
+const STAGE: &str = "reading the elevations";
+
+/// The bounds of the elevations and of the frictions of free cells.
+fn bounds(
+    (width, height): (u32, u32),
+    interrupt: &Interrupt,
+    ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
+) -> Result<[Option<(f64, f64)>; 2], WalkingError> {
+    let (mut elevations, mut frictions) = (None, None);
+    for y in 0..height {
+        interrupt.check(STAGE)?;
+        for (x, (elevation, friction)) in (0..width).filter_map(|x| Some((x, ground(x, y)?))) {
+            if !elevation.is_finite() {
+                return Err(WalkingError::Elevation { x, y, elevation });
+            }
+            if !(friction.is_finite() && friction >= 0.0) {
+                return Err(WalkingError::Friction { x, y, friction });
+            }
+            widen(&mut elevations, elevation);
+            widen(&mut frictions, friction);
+        }
+    }
+    Ok([elevations, frictions])
+}
+
 impl WalkingMap {
     /// The longest side, in cells.
     pub const MAX_SIDE: u32 = Layout::MAX_SIDE;
@@ -117,26 +142,12 @@ impl WalkingMap {
         interrupt: &Interrupt,
         ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
     ) -> Result<Self, WalkingError> {
-        const STAGE: &str = "reading the elevations";
         let size = CostsError::Size { width: width.into(), height: height.into() };
         let layout = Layout::new(width.into(), height.into()).ok_or(size)?;
         check_cell_size(cell_size)?;
         let ground = &ground;
         let cells = |y: u32| (0..width).filter_map(move |x| Some((x, y, ground(x, y)?)));
-        let (mut elevations, mut frictions) = (None, None);
-        for y in 0..height {
-            interrupt.check(STAGE)?;
-            for (x, y, (elevation, friction)) in cells(y) {
-                if !elevation.is_finite() {
-                    return Err(WalkingError::Elevation { x, y, elevation });
-                }
-                if !(friction.is_finite() && friction >= 0.0) {
-                    return Err(WalkingError::Friction { x, y, friction });
-                }
-                widen(&mut elevations, elevation);
-                widen(&mut frictions, friction);
-            }
-        }
+        let [elevations, frictions] = bounds((width, height), interrupt, ground)?;
         let (lowest, highest) = elevations.unwrap_or_default();
         let height_exponent = (floor_log2(highest - lowest) + 1 - DIGITS.0).max(-FINEST);
         let mut heights = vec![BLOCKED; layout.len()];
@@ -180,22 +191,32 @@ impl WalkingMap {
             id: MapId::of_size(width, height),
         };
         if rough > 0.0 {
-            // Frictions of 32 digits, or as many as the times have.
-            let shift = (floor_log2(rough) - 31 - time_exponent).max(0) as u32;
-            let unit = exp2(-time_exponent - shift as i32);
-            let whole = |friction: f64| (friction * unit).round() as u32;
-            let mut of = vec![0; layout.len()];
-            for y in 0..height {
-                interrupt.check(STAGE)?;
-                for (x, y, (_, friction)) in cells(y) {
-                    of[layout.position(x as i32, y as i32)] = whole(friction);
-                }
-            }
-            let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
-            map.friction = Some(Friction { of, shift, least, greatest });
+            map.friction = Some(map.read_frictions([smooth, rough], interrupt, ground)?);
         }
         map.id = map.identity(interrupt)?;
         Ok(map)
+    }
+
+    /// The frictions, between these bounds.
+    fn read_frictions(
+        &self,
+        [smooth, rough]: [f64; 2],
+        interrupt: &Interrupt,
+        ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
+    ) -> Result<Friction, WalkingError> {
+        // Frictions of 32 digits, or as many as the times have.
+        let shift = (floor_log2(rough) - 31 - self.time_exponent).max(0) as u32;
+        let unit = exp2(-self.time_exponent - shift as i32);
+        let whole = |friction: f64| (friction * unit).round() as u32;
+        let mut of = vec![0; self.layout.len()];
+        for y in 0..self.layout.height() {
+            interrupt.check(STAGE)?;
+            for (x, (_, friction)) in (0..self.layout.width()).filter_map(|x| Some((x, ground(x, y)?))) {
+                of[self.layout.position(x as i32, y as i32)] = whole(friction);
+            }
+        }
+        let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
+        Ok(Friction { of, shift, least, greatest })
     }
 
     fn identity(&self, interrupt: &Interrupt) -> Result<MapId, WalkingError> {
@@ -360,7 +381,7 @@ fn steepest(
     let [x, y, diagonal] = [along_x, along_y, diagonal].map(f64::from);
     if is_open {
         let (x, y) = (x / width, y / height);
-        // What the root loses by rounding is less.
+        // The root loses less by rounding.
         return Ok((x * x + y * y).sqrt() * (1.0 + exp2(-50)));
     }
     Ok(5.0 * x.max(y).max(diagonal) / width.min(height))

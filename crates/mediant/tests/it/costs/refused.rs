@@ -15,7 +15,7 @@ fn bad_costs_are_errors_that_say_what_to_do() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let (code, text) = code([1.0, bad, 1.0, 1.0]).expect_err("no cost");
         assert!(code == ErrorCode::Cost && text.contains("(1, 0)") && text.contains("blocked"), "{text}");
-        // Those of blocked cells are not looked at.
+        // Costs of blocked cells are not looked at.
         assert!(map.costs([1.0, 1.0, 1.0, bad]).is_ok());
         let error = costs().edit_cells([((0, 0), Some(bad))]).expect_err("no cost");
         assert_eq!(error.code(), ErrorCode::Cost, "{error}");
@@ -81,7 +81,7 @@ fn what_there_is_not_on_costs_is_refused() {
     assert_eq!(planner.distance([(0, 0), (2, 0)]), Err(QueryError::Smoothing));
     assert_eq!(planner.begin(Query::new((0, 0), (2, 0)).nearest()), Err(QueryError::Smoothing));
     assert_eq!(planner.find_counted([(0, 0), (2, 0)]).unwrap_err(), QueryError::Smoothing);
-    // What was prepared belongs to the costs alone.
+    // The index belongs to the costs alone.
     let plain = plain_space();
     assert!(index.repair(&Change::new(&plain)).is_err());
     let other = index.for_k(K::N16).expect("k = 4");
