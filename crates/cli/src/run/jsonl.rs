@@ -438,7 +438,7 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             smoothness: path.map(Path::smoothness),
             reference: item.reference,
             lower_bound: found
-                .map_or(None, |found| found.lower_bound)
+                .and_then(|found| found.lower_bound)
                 .or(stopped.map(|stopped| stopped.lower_bound)),
             bound: found.and_then(Found::bound),
             any_angle: found.and_then(|found| found.any_angle),

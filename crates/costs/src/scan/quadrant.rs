@@ -134,26 +134,26 @@ impl<V: Visit> Scan<'_, V> {
                 (0, weight) | (weight, 0) => weight,
                 (one, other) => one.min(other),
             };
-            self.cross::<Q, _>(axis, step, [(least, 1)]);
+            self.cross::<Q, 1>(axis, step, [(least, 1)]);
         }
         if !leads_across {
             return;
         }
-        self.cross::<Q, _>(2, x1 + y1, [(near, 1)]);
+        self.cross::<Q, 1>(2, x1 + y1, [(near, 1)]);
         if K < 4 {
             return;
         }
         let cell = |cells: &Self, column: usize, row: usize| cells.weight(columns[column] + rows[row]);
         let [beside, below] = [cell(self, 1, 0), cell(self, 0, 1)];
-        self.cross::<Q, _>(3, x2 + y1, [(near, 1), (beside, 1)]);
-        self.cross::<Q, _>(4, x1 + y2, [(near, 1), (below, 1)]);
+        self.cross::<Q, 2>(3, x2 + y1, [(near, 1), (beside, 1)]);
+        self.cross::<Q, 2>(4, x1 + y2, [(near, 1), (below, 1)]);
         if K < 5 {
             return;
         }
         let across = cell(self, 1, 1);
-        self.cross::<Q, _>(5, x3 + y1, [(near, 1), (beside, 1), (cell(self, 2, 0), 1)]);
-        self.cross::<Q, _>(6, x1 + y3, [(near, 1), (below, 1), (cell(self, 0, 2), 1)]);
-        self.cross::<Q, _>(7, x3 + y2, [(near, 2), (beside, 1), (across, 1), (cell(self, 2, 1), 2)]);
-        self.cross::<Q, _>(8, x2 + y3, [(near, 2), (below, 1), (across, 1), (cell(self, 1, 2), 2)]);
+        self.cross::<Q, 3>(5, x3 + y1, [(near, 1), (beside, 1), (cell(self, 2, 0), 1)]);
+        self.cross::<Q, 3>(6, x1 + y3, [(near, 1), (below, 1), (cell(self, 0, 2), 1)]);
+        self.cross::<Q, 4>(7, x3 + y2, [(near, 2), (beside, 1), (across, 1), (cell(self, 2, 1), 2)]);
+        self.cross::<Q, 4>(8, x2 + y3, [(near, 2), (below, 1), (across, 1), (cell(self, 1, 2), 2)]);
     }
 }
