@@ -74,35 +74,83 @@ const GREATEST_RATIO: f64 = (1_u64 << 20) as f64;
 /// The steepest slope that has an integer.
 const STEEPEST: f64 = (1_u64 << 20) as f64;
 
-/// Bounds of numbers.
-fn widen(bounds: &mut Option<(f64, f64)>, number: f64) {
-    let (least, greatest) = bounds.unwrap_or((number, number));
-    *bounds = Some((least.min(number), greatest.max(number)));
+/// The cells of a map that is made.
+struct Cells<'i, G> {
+    layout: Layout,
+    interrupt: &'i Interrupt,
+    ground: G,
 }
 
-const STAGE: &str = "reading the elevations";
+impl<G: Fn(u32, u32) -> Option<(f64, f64)>> Cells<'_, G> {
+    /// Calls `visit` for all cells that are not blocked, row by row, with the elevation and the friction.
+    fn visit(
+        &self,
+        mut visit: impl FnMut((u32, u32), (f64, f64)) -> Result<(), WalkingError>,
+    ) -> Result<(), WalkingError> {
+        for y in 0..self.layout.height() {
+            self.interrupt.check("reading the elevations")?;
+            for x in 0..self.layout.width() {
+                if let Some(ground) = (self.ground)(x, y) {
+                    visit((x, y), ground)?;
+                }
+            }
+        }
+        Ok(())
+    }
 
-/// The bounds of the elevations and of the frictions of free cells.
-fn bounds(
-    (width, height): (u32, u32),
-    interrupt: &Interrupt,
-    ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
-) -> Result<[Option<(f64, f64)>; 2], WalkingError> {
-    let (mut elevations, mut frictions) = (None, None);
-    for y in 0..height {
-        interrupt.check(STAGE)?;
-        for (x, (elevation, friction)) in (0..width).filter_map(|x| Some((x, ground(x, y)?))) {
+    /// The bounds of the elevations and of the frictions.
+    fn bounds(&self) -> Result<[(f64, f64); 2], WalkingError> {
+        let mut bounds = None;
+        self.visit(|(x, y), (elevation, friction)| {
             if !elevation.is_finite() {
                 return Err(WalkingError::Elevation { x, y, elevation });
             }
             if !(friction.is_finite() && friction >= 0.0) {
                 return Err(WalkingError::Friction { x, y, friction });
             }
-            widen(&mut elevations, elevation);
-            widen(&mut frictions, friction);
-        }
+            let [elevations, frictions] =
+                bounds.unwrap_or([elevation, friction].map(|number| (number, number)));
+            let widen =
+                |(least, greatest): (f64, f64), number: f64| (least.min(number), greatest.max(number));
+            bounds = Some([widen(elevations, elevation), widen(frictions, friction)]);
+            Ok(())
+        })?;
+        Ok(bounds.unwrap_or_default())
     }
-    Ok([elevations, frictions])
+
+    /// A number for each position, `blocked` where there is no cell.
+    fn numbers<T: Copy>(&self, blocked: T, number: impl Fn(f64, f64) -> T) -> Result<Vec<T>, WalkingError> {
+        let mut numbers = vec![blocked; self.layout.len()];
+        self.visit(|(x, y), (elevation, friction)| {
+            numbers[self.layout.position(x as i32, y as i32)] = number(elevation, friction);
+            Ok(())
+        })?;
+        Ok(numbers)
+    }
+}
+
+impl Friction {
+    /// The frictions of cells between two bounds, with 32 digits, or as many as the times have.
+    fn new<G: Fn(u32, u32) -> Option<(f64, f64)>>(
+        cells: &Cells<'_, G>,
+        (smooth, rough): (f64, f64),
+        time_exponent: i32,
+    ) -> Result<Self, WalkingError> {
+        let shift = (floor_log2(rough) - 31 - time_exponent).max(0) as u32;
+        let unit = exp2(-time_exponent - shift as i32);
+        let whole = |friction: f64| (friction * unit).round() as u32;
+        let of = cells.numbers(0, |_, friction| whole(friction))?;
+        let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
+        Ok(Self { of, shift, least, greatest })
+    }
+}
+
+/// The bounds of the times of knots; a time that is not a number is the least.
+fn bounds(knots: &[(f64, f64)]) -> (f64, f64) {
+    let times = knots.iter().map(|&(_, time)| time);
+    times.fold((f64::INFINITY, 0.0), |(least, greatest), time| {
+        (if time >= least { least } else { time }, greatest.max(time))
+    })
 }
 
 impl WalkingMap {
@@ -145,78 +193,43 @@ impl WalkingMap {
         let size = CostsError::Size { width: width.into(), height: height.into() };
         let layout = Layout::new(width.into(), height.into()).ok_or(size)?;
         check_cell_size(cell_size)?;
-        let ground = &ground;
-        let cells = |y: u32| (0..width).filter_map(move |x| Some((x, y, ground(x, y)?)));
-        let [elevations, frictions] = bounds((width, height), interrupt, ground)?;
-        let (lowest, highest) = elevations.unwrap_or_default();
+        let cells = Cells { layout, interrupt, ground };
+        let [(lowest, highest), (smooth, rough)] = cells.bounds()?;
         let height_exponent = (floor_log2(highest - lowest) + 1 - DIGITS.0).max(-FINEST);
-        let mut heights = vec![BLOCKED; layout.len()];
-        for y in 0..height {
-            interrupt.check(STAGE)?;
-            for (x, y, (elevation, _)) in cells(y) {
-                let height = (elevation - lowest) * exp2(-height_exponent);
-                heights[layout.position(x as i32, y as i32)] = height.round() as i32;
-            }
-        }
+        let above = |elevation: f64| ((elevation - lowest) * exp2(-height_exponent)).round() as i32;
+        let heights = cells.numbers(BLOCKED, |elevation, _| above(elevation))?;
         let steepest = steepest(layout, &heights, cell_size, interrupt)? * exp2(height_exponent);
-        let knots = pace.knots(steepest)?;
-        let knots = clip(&knots, steepest);
-        let (least, greatest) =
-            knots.iter().fold((f64::INFINITY, 0.0_f64), |(least, greatest), &(_, time)| {
-                // A time that is not a number is none of the bounds of the others.
-                (if time >= least { least } else { time }, greatest.max(time))
-            });
+        let knots = clip(&pace.knots(steepest)?, steepest);
+        let (least, greatest) = bounds(&knots);
         if !(least > 0.0 && greatest.is_finite()) {
             return Err(WalkingError::Pace { steepest, time: least });
         }
-        let (smooth, rough) = frictions.unwrap_or_default();
-        let range = WalkingError::Range { least: least + smooth, greatest: greatest + rough, steepest };
-        if steepest > STEEPEST || greatest + rough > (least + smooth) * GREATEST_RATIO {
+        let (least, greatest) = (least + smooth, greatest + rough);
+        let range = WalkingError::Range { least, greatest, steepest };
+        if steepest > STEEPEST || greatest > least * GREATEST_RATIO {
             return Err(range);
         }
-        let time_exponent = floor_log2(greatest + rough) + 1 - DIGITS.1;
+        let time_exponent = floor_log2(greatest) + 1 - DIGITS.1;
         let vertices = u64::from(width) * u64::from(height);
-        let exponent = exponent(vertices, [least + smooth, greatest + rough], cell_size).ok_or(range)?;
+        let exponent = exponent(vertices, [least, greatest], cell_size).ok_or(range)?;
+        let friction =
+            if rough > 0.0 { Some(Friction::new(&cells, (smooth, rough), time_exponent)?) } else { None };
         let pace = PaceTable::new(&knots, steepest, time_exponent);
+        let id = MapId::of_size(width, height);
         let mut map = Self {
             layout,
             cell_size,
             heights,
             lowest,
             height_exponent,
-            friction: None,
+            friction,
             pace,
             time_exponent,
             exponent,
-            id: MapId::of_size(width, height),
+            id,
         };
-        if rough > 0.0 {
-            map.friction = Some(map.read_frictions([smooth, rough], interrupt, ground)?);
-        }
         map.id = map.identity(interrupt)?;
         Ok(map)
-    }
-
-    /// The frictions, between these bounds.
-    fn read_frictions(
-        &self,
-        [smooth, rough]: [f64; 2],
-        interrupt: &Interrupt,
-        ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
-    ) -> Result<Friction, WalkingError> {
-        // Frictions of 32 digits, or as many as the times have.
-        let shift = (floor_log2(rough) - 31 - self.time_exponent).max(0) as u32;
-        let unit = exp2(-self.time_exponent - shift as i32);
-        let whole = |friction: f64| (friction * unit).round() as u32;
-        let mut of = vec![0; self.layout.len()];
-        for y in 0..self.layout.height() {
-            interrupt.check(STAGE)?;
-            for (x, (_, friction)) in (0..self.layout.width()).filter_map(|x| Some((x, ground(x, y)?))) {
-                of[self.layout.position(x as i32, y as i32)] = whole(friction);
-            }
-        }
-        let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
-        Ok(Friction { of, shift, least, greatest })
     }
 
     fn identity(&self, interrupt: &Interrupt) -> Result<MapId, WalkingError> {
@@ -353,9 +366,10 @@ impl WalkingMap {
 /// A bound of the slopes of pieces of moves, in units of height a unit of length.
 ///
 /// Between four free cells the slope of a bilinear surface is within those of its edges, along x and along y.
-/// Where cells are blocked, a piece may go on past some lines, or lead from corner to corner. Of three lines
-/// that it passes, two are of one kind, so it is long enough that five differences between neighbors are not
-/// exceeded.
+/// Where cells are blocked, a piece may lead past some lines. Of three lines in a row two are of one kind, so
+/// that it is a cell long at least. From end to end there is a way over the cells that it crosses, from one
+/// to the next: as long as the piece along x and along y, and half a cell more, there and back, at each end.
+/// One of the steps may lead over a corner.
 fn steepest(
     layout: Layout,
     heights: &[i32],
@@ -379,12 +393,12 @@ fn steepest(
         }
     }
     let [x, y, diagonal] = [along_x, along_y, diagonal].map(f64::from);
-    if is_open {
-        let (x, y) = (x / width, y / height);
-        // The root loses less by rounding.
-        return Ok((x * x + y * y).sqrt() * (1.0 + exp2(-50)));
-    }
-    Ok(5.0 * x.max(y).max(diagonal) / width.min(height))
+    let norm = |x: f64, y: f64| (x * x + y * y).sqrt();
+    let bilinear = norm(x / width, y / height);
+    let beyond = (2.0 * x.max(y) + (diagonal - x - y).max(0.0)) / width.min(height);
+    let bound = if is_open { bilinear } else { (bilinear + beyond).max(diagonal / norm(width, height)) };
+    // More than roundings take away.
+    Ok(bound * (1.0 + exp2(-50)))
 }
 
 /// Maps with the same cells, elevations, frictions and pace are one.

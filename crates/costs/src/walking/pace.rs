@@ -107,7 +107,7 @@ impl Pace {
 }
 
 impl Langmuir {
-    /// The cost of a unit of height on a slope.
+    /// The time that a unit of height adds on a slope.
     fn coefficient(&self, slope: f64) -> f64 {
         if slope >= 0.0 {
             self.b

@@ -96,7 +96,7 @@ impl Ground {
 
     /// By how much of a time a map may differ: its table of Tobler's function is coarse.
     pub(super) fn tolerance(&self) -> f64 {
-        if self.pace == Pace::Tobler { 2e-6 } else { 2e-7 }
+        if self.pace == Pace::Tobler { 2e-6 } else { 1e-6 }
     }
 
     /// The time of a legal move.

@@ -4,5 +4,6 @@ mod creases;
 mod fields;
 mod ground;
 mod paths;
+mod platforms;
 mod refused;
 mod walk;
