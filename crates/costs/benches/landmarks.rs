@@ -8,7 +8,7 @@
 
 use std::{sync::Arc, time::Instant};
 
-use mediant_costs::{CostAStar, CostGraph, CostMap, CostTheta, Landmarks, smooth};
+use mediant_costs::{CostAStar, CostGraph, CostSurface, CostTheta, Landmarks, smooth};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::Rng;
@@ -190,7 +190,7 @@ fn problems(surface: Surface, side: u32, k: u32) -> (Arc<CostGraph>, Vec<Ends>) 
     let mut rng = Rng::new(u64::from(side));
     let cells = surface(side, &mut rng);
     let cost = |x: u32, y: u32| Some(f64::from(cells[(y * side + x) as usize])).filter(|&cost| cost > 0.0);
-    let map = Arc::new(CostMap::from_fn(side, side, cost).unwrap());
+    let map = Arc::new(CostSurface::from_fn(side, side, cost).unwrap());
     let rules = Rules::Center(CornerRule::Never);
     let graph = Arc::new(CostGraph::new(map, rules, FiniteK::new(k).unwrap()).unwrap());
     let mut planner = CostAStar::new(Arc::clone(&graph));

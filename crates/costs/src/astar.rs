@@ -27,14 +27,14 @@ use crate::{
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostAStar, CostGraph, CostMap};
+/// use mediant_costs::{CostAStar, CostGraph, CostSurface};
 /// use mediant_grid::{CornerRule, Rules};
 /// use mediant_moves::FiniteK;
 /// use mediant_search::{Ends, Planner};
 ///
 /// // A swamp with a road around it.
 /// let swamp = |x, y| if (1..6).contains(&x) && y < 3 { 8.0 } else { 1.0 };
-/// let map = Arc::new(CostMap::from_fn(7, 4, |x, y| Some(swamp(x, y)))?);
+/// let map = Arc::new(CostSurface::from_fn(7, 4, |x, y| Some(swamp(x, y)))?);
 /// let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?);
 /// let mut planner = CostAStar::new(Arc::clone(&graph));
 /// let answer = planner.solve(Ends::new((0, 0), (6, 0)))?;

@@ -8,7 +8,7 @@
 
 use mediant_moves::Vector;
 
-use crate::{layout::Steps, map::CostMap};
+use crate::{layout::Steps, surface::CostSurface};
 
 /// The closed gaps of a map.
 #[derive(Clone, Debug, Default)]
@@ -21,7 +21,7 @@ pub(crate) struct Gaps {
 
 impl Gaps {
     /// All gaps of a map.
-    pub(crate) fn of(map: &CostMap, steps: &Steps) -> Self {
+    pub(crate) fn of(map: &CostSurface, steps: &Steps) -> Self {
         let (layout, weights) = (map.layout(), map.weights());
         let corners = (0..=map.height() as i32).flat_map(|y| (0..=map.width() as i32).map(move |x| (x, y)));
         let gaps = corners.map(|(x, y)| layout.position(x, y)).filter(|&at| is_gap(weights, steps, at));

@@ -10,24 +10,24 @@ use crate::{
     error::CostsError,
     gaps::Gaps,
     layout::{Layout, Steps},
-    map::CostMap,
     moves::{Move, Moves},
     scan::Scanner,
+    surface::CostSurface,
 };
 
 /// The search graph of a cost surface: its vertices by a placement, joined by the moves of N(k) that are
 /// legal by a rule of motion. A move costs the integral of the cells' costs along it, as an integer of the
-/// map's [unit](CostMap::unit).
+/// map's [unit](CostSurface::unit).
 ///
 /// No edge is stored, and searches share it.
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostGraph, CostMap};
+/// use mediant_costs::{CostGraph, CostSurface};
 /// use mediant_grid::{CornerRule, Rules, Vertex};
 /// use mediant_moves::{FiniteK, Vector};
 ///
-/// let map = Arc::new(CostMap::from_fn(3, 2, |x, y| Some(f64::from(1 + 2 * x + y)))?);
+/// let map = Arc::new(CostSurface::from_fn(3, 2, |x, y| Some(f64::from(1 + 2 * x + y)))?);
 /// let graph = CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N16)?;
 /// // (2, 1) crosses cells of cost 1, 3, 4 and 6, a quarter of its length each.
 /// let cost = graph.move_cost(Vertex::new(0, 0), Vector::new(2, 1));
@@ -37,7 +37,7 @@ use crate::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct CostGraph {
-    map: Arc<CostMap>,
+    map: Arc<CostSurface>,
     k: FiniteK,
     scanner: Scanner,
     /// h_k over cells of the least cost.
@@ -52,7 +52,7 @@ impl CostGraph {
     ///
     /// # Errors
     /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K).
-    pub fn new(map: Arc<CostMap>, rules: Rules, k: FiniteK) -> Result<Self, CostsError> {
+    pub fn new(map: Arc<CostSurface>, rules: Rules, k: FiniteK) -> Result<Self, CostsError> {
         let too_large = CostsError::K { k, max: Self::MAX_K };
         if k.get() > Self::MAX_K {
             return Err(too_large);
@@ -70,7 +70,7 @@ impl CostGraph {
     ///
     /// # Errors
     /// None that this graph can have.
-    pub fn after(&self, map: Arc<CostMap>) -> Result<Self, CostsError> {
+    pub fn after(&self, map: Arc<CostSurface>) -> Result<Self, CostsError> {
         if map.scale() != self.map.scale() || map.layout() != self.map.layout() {
             return Self::new(map, self.rules(), self.k);
         }
@@ -84,7 +84,7 @@ impl CostGraph {
 
     /// The surface.
     #[must_use]
-    pub const fn map(&self) -> &Arc<CostMap> {
+    pub const fn map(&self) -> &Arc<CostSurface> {
         &self.map
     }
 

@@ -5,7 +5,7 @@
 //! scikit-image, the cost distance of ArcGIS and `r.cost` of GRASS compute for 8 neighbors, and `r.cost -k`
 //! for 16. Here it is defined for every k, at centers and at corners.
 //!
-//! - [`CostMap`] is the surface, [`CostGraph`] its search graph under rules of motion and N(k).
+//! - [`CostSurface`] is the surface, [`CostGraph`] its search graph under rules of motion and N(k).
 //! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
 //!   allocation, directions, paths and corridors.
 //! - [`CostAStar`] finds one path after another; with [`Landmarks`], the index, several times as fast.
@@ -35,12 +35,12 @@ mod guide;
 mod landmarks;
 mod layout;
 mod line;
-mod map;
 mod moves;
 #[cfg(doctest)]
 mod readme;
 mod scale;
 mod scan;
+mod surface;
 mod theta;
 mod walking;
 
@@ -50,7 +50,7 @@ pub use error::{CostFieldError, CostsError};
 pub use field::{CostField, CostFieldQuery, DirectionCode};
 pub use graph::CostGraph;
 pub use landmarks::{Landmarks, LandmarksError};
-pub use map::CostMap;
+pub use surface::CostSurface;
 pub use theta::{CostTheta, smooth};
 pub use walking::{
     Heading, Langmuir, Pace, WalkingAStar, WalkingError, WalkingField, WalkingGraph, WalkingMap,

@@ -33,11 +33,11 @@ impl CostGraph {
     ///
     /// ```
     /// use std::sync::Arc;
-    /// use mediant_costs::{CostGraph, CostMap};
+    /// use mediant_costs::{CostGraph, CostSurface};
     /// use mediant_grid::{CornerRule, Rules, Vertex};
     /// use mediant_moves::FiniteK;
     ///
-    /// let map = Arc::new(CostMap::from_fn(9, 4, |x, _| Some(if x < 4 { 1.0 } else { 3.0 }))?);
+    /// let map = Arc::new(CostSurface::from_fn(9, 4, |x, _| Some(if x < 4 { 1.0 } else { 3.0 }))?);
     /// let graph = CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?;
     /// // 3.5 columns of cost 1, and 3.5 of cost 3.
     /// let cost = graph.line_cost(Vertex::new(0, 0), Vertex::new(7, 3)).expect("all cells are free");

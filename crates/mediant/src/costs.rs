@@ -2,7 +2,7 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_costs::{CostMap, CostsError};
+use mediant_costs::{CostSurface, CostsError};
 use mediant_grid::{Interrupt, MapId, Vertex};
 
 use crate::{error::Error, map::Map, memory_check, motion::Motion, never::NEVER, space::Space};
@@ -23,7 +23,7 @@ use crate::{error::Error, map::Map, memory_check, motion::Motion, never::NEVER, 
 #[derive(Clone)]
 pub struct Costs {
     map: Map,
-    surface: Arc<CostMap>,
+    surface: Arc<CostSurface>,
 }
 
 /// Costs of cells that were edited: column, row and cost; `None` is blocked.
@@ -86,13 +86,13 @@ impl Costs {
     ) -> Result<Self, Error> {
         let (grid, size) = (map.grid(), (map.width(), map.height()));
         let cost = |x: u32, y: u32| grid.is_free(x as i32, y as i32).then(|| cost(x, y));
-        let surface = CostMap::with_cells(size, cell_size, interrupt, cost)?;
+        let surface = CostSurface::with_cells(size, cell_size, interrupt, cost)?;
         // Without what the map keeps for paths of its own.
         Ok(Self { map: Arc::clone(grid).into(), surface: Arc::new(surface) })
     }
 
     /// A map and the surface of its costs, which have the same blocked cells.
-    pub(crate) const fn of_parts(map: Map, surface: Arc<CostMap>) -> Self {
+    pub(crate) const fn of_parts(map: Map, surface: Arc<CostSurface>) -> Self {
         Self { map, surface }
     }
 
@@ -203,7 +203,7 @@ impl Costs {
 
     /// The surface, for the typed crate `mediant-costs`.
     #[must_use]
-    pub const fn surface(&self) -> &Arc<CostMap> {
+    pub const fn surface(&self) -> &Arc<CostSurface> {
         &self.surface
     }
 }

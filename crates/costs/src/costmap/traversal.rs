@@ -3,7 +3,7 @@
 use mediant_grid::Interrupt;
 
 use super::Costmap;
-use crate::{error::CostsError, map::CostMap};
+use crate::{error::CostsError, surface::CostSurface};
 
 /// How the cells of a [`Costmap`] can be crossed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +72,7 @@ impl Costmap {
         weight: f64,
         traversal: &Traversal,
         interrupt: &Interrupt,
-    ) -> Result<CostMap, CostsError> {
+    ) -> Result<CostSurface, CostsError> {
         if !(weight.is_finite() && weight >= 0.0) {
             let name = "weight";
             return Err(CostsError::Setting { name, value: weight, expected: "a number from 0 on" });
@@ -106,14 +106,14 @@ impl Costmap {
     /// ```
     ///
     /// # Errors
-    /// As those of [`CostMap::with_cells`].
+    /// As those of [`CostSurface::with_cells`].
     pub fn to_costs_by(
         &self,
         cell_size: f64,
         interrupt: &Interrupt,
         cost: impl Fn(u8) -> Option<f64>,
-    ) -> Result<CostMap, CostsError> {
+    ) -> Result<CostSurface, CostsError> {
         let costs = std::array::from_fn(|byte| cost(byte as u8));
-        CostMap::of_bytes((self.width, self.height), &self.bytes, &costs, cell_size, interrupt)
+        CostSurface::of_bytes((self.width, self.height), &self.bytes, &costs, cell_size, interrupt)
     }
 }

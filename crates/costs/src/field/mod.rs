@@ -69,12 +69,12 @@ impl<'q> CostFieldQuery<'q> {
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostMap};
+/// use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostSurface};
 /// use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 /// use mediant_moves::FiniteK;
 ///
 /// // The way along the road, at the bottom, is the cheapest.
-/// let map = CostMap::from_fn(5, 3, |x, y| Some(if y == 2 || x == 0 { 1.0 } else { 9.0 }))?;
+/// let map = CostSurface::from_fn(5, 3, |x, y| Some(if y == 2 || x == 0 { 1.0 } else { 9.0 }))?;
 /// let graph = Arc::new(CostGraph::new(Arc::new(map), Rules::Center(CornerRule::Never), FiniteK::N8)?);
 /// let sources = [Vertex::new(0, 0)];
 /// let field = CostField::new(graph, CostFieldQuery::new(&sources), &Interrupt::NEVER)?;

@@ -49,12 +49,12 @@ use crate::{
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostAStar, CostGraph, CostMap, Landmarks};
+/// use mediant_costs::{CostAStar, CostGraph, CostSurface, Landmarks};
 /// use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 /// use mediant_moves::FiniteK;
 /// use mediant_search::{Ends, Planner};
 ///
-/// let map = Arc::new(CostMap::from_fn(30, 20, |x, y| Some(f64::from(1 + (7 * x + 5 * y) % 11)))?);
+/// let map = Arc::new(CostSurface::from_fn(30, 20, |x, y| Some(f64::from(1 + (7 * x + 5 * y) % 11)))?);
 /// let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?);
 /// let landmarks = Arc::new(Landmarks::new(&graph, Landmarks::DEFAULT_COUNT, &Interrupt::NEVER)?);
 /// let (from, to) = (Vertex::new(2, 3), Vertex::new(28, 17));

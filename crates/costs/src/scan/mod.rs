@@ -14,9 +14,9 @@ use self::{far::Far, quadrant::Scan};
 use crate::{
     gaps::{Gaps, is_lower},
     layout::Steps,
-    map::CostMap,
     moves::{Factor, Move, Moves, Part},
     scale::Scale,
+    surface::CostSurface,
 };
 
 /// Calls a function for the `K` and the `CENTER` of a [scan](Scanner::scan) of a graph.
@@ -68,7 +68,7 @@ pub(crate) struct OfCosts<'g, const K: u32, const CENTER: bool> {
 }
 
 impl<'g, const K: u32, const CENTER: bool> OfCosts<'g, K, CENTER> {
-    pub(crate) fn new(scanner: &'g Scanner, map: &'g CostMap) -> Self {
+    pub(crate) fn new(scanner: &'g Scanner, map: &'g CostSurface) -> Self {
         Self { scanner, scale: map.scale(), weights: map.weights() }
     }
 }
@@ -157,7 +157,7 @@ impl Scanner {
     /// The cells that a legal move crosses, with the length in each.
     pub(crate) fn crossed(
         &self,
-        map: &CostMap,
+        map: &CostSurface,
         at: usize,
         of: &Move,
     ) -> impl Iterator<Item = ((u32, u32), f64)> {

@@ -41,13 +41,13 @@ use crate::{
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostGraph, CostMap, CostTheta};
+/// use mediant_costs::{CostGraph, CostSurface, CostTheta};
 /// use mediant_grid::{CornerRule, Rules};
 /// use mediant_moves::FiniteK;
 /// use mediant_search::{Ends, Planner};
 ///
 /// // Meadow, and a swamp from row 4 on.
-/// let map = Arc::new(CostMap::from_fn(12, 8, |_, y| Some(if y < 4 { 1.0 } else { 5.0 }))?);
+/// let map = Arc::new(CostSurface::from_fn(12, 8, |_, y| Some(if y < 4 { 1.0 } else { 5.0 }))?);
 /// let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?);
 /// let mut planner = CostTheta::new(Arc::clone(&graph));
 /// let answer = planner.solve(Ends::new((0, 0), (11, 5)))?;

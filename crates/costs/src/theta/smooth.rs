@@ -22,12 +22,12 @@ const PASSES: usize = 6;
 ///
 /// ```
 /// use std::sync::Arc;
-/// use mediant_costs::{CostAStar, CostGraph, CostMap, smooth};
+/// use mediant_costs::{CostAStar, CostGraph, CostSurface, smooth};
 /// use mediant_grid::{CornerRule, Rules};
 /// use mediant_moves::FiniteK;
 /// use mediant_search::{Ends, Planner};
 ///
-/// let map = Arc::new(CostMap::from_fn(12, 8, |_, y| Some(if y < 4 { 1.0 } else { 5.0 }))?);
+/// let map = Arc::new(CostSurface::from_fn(12, 8, |_, y| Some(if y < 4 { 1.0 } else { 5.0 }))?);
 /// let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?);
 /// let answer = CostAStar::new(Arc::clone(&graph)).solve(Ends::new((0, 0), (11, 2)))?;
 /// let path = answer.path().expect("all cells are free");

@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
-use mediant_costs::{CostGraph, CostMap};
+use mediant_costs::{CostGraph, CostSurface};
 use mediant_grid::{Interrupt, Rules, Vertex};
 use mediant_moves::FiniteK;
 use mediant_oracle::{Integral, WeightedMap, random_weighted, seeds};
 
 /// The surface of a map of the oracle; the description of the map in errors.
-pub(crate) fn surface(map: &WeightedMap, about: &str) -> Arc<CostMap> {
+pub(crate) fn surface(map: &WeightedMap, about: &str) -> Arc<CostSurface> {
     let size = (map.grid().width(), map.grid().height());
     let cost = |x: u32, y: u32| map.weight(x as i32, y as i32).map(f64::from);
-    let surface = CostMap::with_cells(size, map.cell_size(), &Interrupt::NEVER, cost);
+    let surface = CostSurface::with_cells(size, map.cell_size(), &Interrupt::NEVER, cost);
     Arc::new(surface.unwrap_or_else(|error| panic!("{about}: {error}")))
 }
 
-pub(crate) fn graph(surface: &Arc<CostMap>, rules: Rules, k: u32) -> Arc<CostGraph> {
+pub(crate) fn graph(surface: &Arc<CostSurface>, rules: Rules, k: u32) -> Arc<CostGraph> {
     let k = FiniteK::new(k).expect("a small k");
     Arc::new(CostGraph::new(Arc::clone(surface), rules, k).expect("a small k"))
 }
@@ -31,7 +31,7 @@ pub(crate) fn rounded(graph: &CostGraph) -> impl Fn(&Integral) -> u64 {
 /// Calls `check` for random maps with all rules, and for each a k, which differs from map to map.
 pub(crate) fn for_random_maps(
     maps: u64,
-    mut check: impl FnMut(&WeightedMap, &Arc<CostMap>, Rules, u32, &str),
+    mut check: impl FnMut(&WeightedMap, &Arc<CostSurface>, Rules, u32, &str),
 ) {
     for seed in seeds(maps) {
         let (map, about) = random_weighted(seed);

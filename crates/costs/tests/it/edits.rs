@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_costs::{CostAStar, CostField, CostFieldQuery, CostMap};
+use mediant_costs::{CostAStar, CostField, CostFieldQuery, CostSurface};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 use mediant_oracle::{Rng, random_weighted, seeds};
 use mediant_search::{Ends, Planner};
@@ -55,8 +55,9 @@ fn an_edited_surface_is_the_one_made_anew() {
 #[test]
 fn a_planner_follows_and_a_field_is_made_anew() {
     let rules = Rules::Center(CornerRule::Never);
-    let open =
-        Arc::new(CostMap::from_fn(30, 20, |x, _| Some(if x == 15 { 9.0 } else { 1.0 })).expect("a surface"));
+    let open = Arc::new(
+        CostSurface::from_fn(30, 20, |x, _| Some(if x == 15 { 9.0 } else { 1.0 })).expect("a surface"),
+    );
     let mut planner = CostAStar::new(graph(&open, rules, 4));
     let ends = Ends::new((0, 10), (29, 10));
     let cost = |planner: &mut CostAStar| {

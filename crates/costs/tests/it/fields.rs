@@ -2,7 +2,7 @@
 
 use std::{num::NonZeroUsize, sync::Arc};
 
-use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostMap};
+use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostSurface};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{
@@ -110,7 +110,7 @@ fn costs_of_1_are_the_distances_of_the_engines_without_costs() {
     for seed in 0..60 {
         let (grid, about) = suite_grid(seed);
         let grid = Arc::new(grid);
-        let surface = Arc::new(CostMap::uniform(&grid, &Interrupt::NEVER).expect("costs of 1"));
+        let surface = Arc::new(CostSurface::uniform(&grid, &Interrupt::NEVER).expect("costs of 1"));
         for (rule, k) in [(CornerRule::Never, 3), (CornerRule::One, 4), (CornerRule::Always, 6)] {
             let k = FiniteK::new(k).expect("a small k");
             let uniform = mediant_grid::GridGraph::<mediant_grid::Centers>::new(Arc::clone(&grid), k, rule);

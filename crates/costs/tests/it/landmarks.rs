@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_costs::{CostAStar, CostGraph, CostMap, Landmarks, LandmarksError};
+use mediant_costs::{CostAStar, CostGraph, CostSurface, Landmarks, LandmarksError};
 use mediant_grid::{CornerRule, DiagonalGap, Interrupt, Rules, Vertex};
 use mediant_moves::{Cost, FiniteK};
 use mediant_oracle::{Rng, WeightedGraph, random_free_vertex, random_weighted, seeds};
@@ -59,7 +59,7 @@ fn paths_by_landmarks_are_the_cheapest_and_take_no_more_expansions() {
 }
 
 /// Another surface of the same units, and the cells that differ.
-fn edited(current: &CostMap, rng: &mut Rng, most: u32) -> (CostMap, Vec<(u32, u32)>) {
+fn edited(current: &CostSurface, rng: &mut Rng, most: u32) -> (CostSurface, Vec<(u32, u32)>) {
     let (least, greatest) = current.bounds();
     let cells: Vec<(u32, u32, Option<f64>)> = (0..1 + rng.below(most))
         .map(|_| {
@@ -115,12 +115,12 @@ fn after_edits_paths_are_the_cheapest() {
 }
 
 /// Land of cost 1 to 9, with walls.
-fn land(width: u32, height: u32) -> Arc<CostMap> {
+fn land(width: u32, height: u32) -> Arc<CostSurface> {
     let mut rng = Rng::new(3);
     let cells: Vec<u32> =
         (0..width * height).map(|_| if rng.chance(10) { 0 } else { 1 + rng.below(9) }).collect();
     let cost = |x: u32, y: u32| Some(f64::from(cells[(y * width + x) as usize])).filter(|&cost| cost > 0.0);
-    Arc::new(CostMap::from_fn(width, height, cost).expect("a surface"))
+    Arc::new(CostSurface::from_fn(width, height, cost).expect("a surface"))
 }
 
 #[test]
@@ -192,7 +192,7 @@ fn damaged_bytes_are_refused_or_harmless() {
 
 #[test]
 fn numbers_of_landmarks_are_checked_and_maps_without_free_cells_have_none() {
-    let map = Arc::new(CostMap::from_fn(3, 3, |_, _| None).expect("no cell is free"));
+    let map = Arc::new(CostSurface::from_fn(3, 3, |_, _| None).expect("no cell is free"));
     let graph = graph(&map, Rules::Center(CornerRule::Always), 3);
     for count in [0, 17, usize::MAX] {
         let refused = Landmarks::new(&graph, count, &Interrupt::NEVER);

@@ -2,18 +2,18 @@
 
 use std::sync::{Arc, atomic::AtomicBool};
 
-use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph, CostMap, CostsError};
+use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph, CostSurface, CostsError};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 use mediant_moves::FiniteK;
 
 #[test]
 fn bad_costs_are_named_with_their_cell() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let map = CostMap::from_fn(4, 3, |x, y| Some(if (x, y) == (2, 1) { bad } else { 1.0 }));
+        let map = CostSurface::from_fn(4, 3, |x, y| Some(if (x, y) == (2, 1) { bad } else { 1.0 }));
         let error = map.expect_err("no cost");
         assert!(matches!(error, CostsError::Cost { x: 2, y: 1, .. }), "{error}");
         assert!(error.to_string().contains("blocked"), "{error}");
-        let fine = CostMap::from_fn(4, 3, |_, _| Some(1.0)).expect("costs of 1");
+        let fine = CostSurface::from_fn(4, 3, |_, _| Some(1.0)).expect("costs of 1");
         assert!(matches!(fine.edit([(2, 1, Some(bad))]), Err(CostsError::Cost { x: 2, y: 1, .. })));
     }
 }
@@ -21,20 +21,20 @@ fn bad_costs_are_named_with_their_cell() {
 #[test]
 fn sizes_are_refused_before_a_cell_is_asked_for() {
     for (width, height) in [(0, 5), (5, 0), ((1 << 20) + 1, 1), (1 << 20, 1 << 20)] {
-        let map = CostMap::from_fn(width, height, |_, _| panic!("asked"));
+        let map = CostSurface::from_fn(width, height, |_, _| panic!("asked"));
         assert!(matches!(map, Err(CostsError::Size { .. })));
     }
 }
 
 #[test]
 fn ranges_k_cells_and_sources_are_checked() {
-    let wide = CostMap::from_fn(2, 1, |x, _| Some(if x == 0 { 1e-6 } else { 1.5 }));
+    let wide = CostSurface::from_fn(2, 1, |x, _| Some(if x == 0 { 1e-6 } else { 1.5 }));
     assert!(matches!(wide, Err(CostsError::Range { .. })));
     for cell_size in [(0.0, 1.0), (1.0, -2.0), (f64::NAN, 1.0), (1.0, 1e9)] {
-        let map = CostMap::with_cells((2, 2), cell_size, &Interrupt::NEVER, |_, _| Some(1.0));
+        let map = CostSurface::with_cells((2, 2), cell_size, &Interrupt::NEVER, |_, _| Some(1.0));
         assert!(matches!(map, Err(CostsError::CellSize { .. })));
     }
-    let map = Arc::new(CostMap::from_fn(3, 2, |x, _| (x > 0).then_some(1.0)).expect("costs of 1"));
+    let map = Arc::new(CostSurface::from_fn(3, 2, |x, _| (x > 0).then_some(1.0)).expect("costs of 1"));
     assert!(matches!(map.edit([(3, 0, None)]), Err(CostsError::Outside { x: 3, y: 0 })));
     let rules = Rules::Center(CornerRule::Never);
     let nine = FiniteK::new(9).expect("a k");
@@ -54,7 +54,7 @@ fn ranges_k_cells_and_sources_are_checked() {
 
 #[test]
 fn a_map_without_a_free_cell_is_a_map() {
-    let map = Arc::new(CostMap::from_fn(3, 3, |_, _| None).expect("no cell is free"));
+    let map = Arc::new(CostSurface::from_fn(3, 3, |_, _| None).expect("no cell is free"));
     let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::One), FiniteK::N4).expect("k = 2"));
     let field = CostField::new(graph, CostFieldQuery::new(&[]), &Interrupt::NEVER).expect("no source");
     assert!(field.into_rows().iter().all(|cost| cost.is_infinite()));

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write, sync::Arc};
 
-use mediant_costs::{CostAStar, CostGraph, CostMap, Costmap, Inflation, Traversal};
+use mediant_costs::{CostAStar, CostGraph, CostSurface, Costmap, Inflation, Traversal};
 use mediant_grid::{Clearance, CornerRule, Fit, Grid, Interrupt, Outside, Rules};
 use mediant_moves::FiniteK;
 use mediant_search::{Ends, Path, Planner};
@@ -10,7 +10,7 @@ use mediant_search::{Ends, Path, Planner};
 const RULES: Rules = Rules::Center(CornerRule::Never);
 
 /// The cheapest path on a surface over N(4).
-fn path(costs: CostMap, ends: Ends) -> Option<Path> {
+fn path(costs: CostSurface, ends: Ends) -> Option<Path> {
     let graph = CostGraph::new(Arc::new(costs), RULES, FiniteK::N16).expect("a small k");
     let mut planner = CostAStar::new(Arc::new(graph));
     planner.solve(ends).ok()?.path().cloned()
@@ -18,7 +18,7 @@ fn path(costs: CostMap, ends: Ends) -> Option<Path> {
 
 /// The shortest path on a map.
 fn shortest(grid: &Grid, ends: Ends) -> Option<Path> {
-    path(CostMap::uniform(grid, &Interrupt::NEVER).expect("nothing stops it"), ends)
+    path(CostSurface::uniform(grid, &Interrupt::NEVER).expect("nothing stops it"), ends)
 }
 
 /// The least and the mean distance to obstacles, in cells, at ten points or more a cell along a path.

@@ -62,7 +62,8 @@ fn segments_are_legal_and_cost_as_the_oracle_has_it() {
 
 #[test]
 fn long_segments_are_those_of_their_parts() {
-    let map = mediant_costs::CostMap::from_fn(900, 700, |x, y| Some(f64::from(1 + (x * 7 + y * 13) % 50)));
+    let map =
+        mediant_costs::CostSurface::from_fn(900, 700, |x, y| Some(f64::from(1 + (x * 7 + y * 13) % 50)));
     let graph = graph(&Arc::new(map.expect("a surface")), Rules::ALL[0], 3);
     for (dx, dy) in [(89, 64), (3, 1), (1, 1), (0, 7), (5, 2), (30, 23)] {
         let whole = graph.line_cost(Vertex::new(0, 0), Vertex::new(10 * dx, 10 * dy)).expect("all are free");
@@ -160,7 +161,7 @@ fn smoothing_never_raises_the_cost() {
 
 #[test]
 fn a_path_with_a_segment_that_is_not_legal_is_not_smoothed() {
-    let map = mediant_costs::CostMap::from_fn(5, 3, |x, _| (x != 2).then_some(1.0)).expect("costs of 1");
+    let map = mediant_costs::CostSurface::from_fn(5, 3, |x, _| (x != 2).then_some(1.0)).expect("costs of 1");
     let graph = graph(&Arc::new(map), Rules::ALL[0], 3);
     let path = |waypoints: &[(i32, i32)]| Path::new(waypoints.iter().copied().map(Into::into).collect());
     for waypoints in [&[(0, 0), (4, 0)][..], &[(0, 0), (9, 9)], &[(2, 1)], &[(0, 0), (1, 1), (2, 1)]] {
@@ -175,7 +176,7 @@ fn a_path_with_a_segment_that_is_not_legal_is_not_smoothed() {
 #[test]
 fn a_planner_follows_an_edit_and_forgets_landmarks_of_another_graph() {
     let cost = |x, y| Some(f64::from(2 + (5 * x + 3 * y) % 7)).filter(|_| (x + 2 * y) % 11 > 0);
-    let map = Arc::new(mediant_costs::CostMap::from_fn(40, 30, cost).expect("a surface"));
+    let map = Arc::new(mediant_costs::CostSurface::from_fn(40, 30, cost).expect("a surface"));
     let (rules, k) = (Rules::ALL[1], 3);
     let before = graph(&map, rules, k);
     let landmarks = |graph: &Arc<CostGraph>| {

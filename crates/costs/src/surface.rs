@@ -12,11 +12,11 @@ use crate::{error::CostsError, layout::Layout, scale::Scale};
 /// exactly where they are integers, else rounded once, by 2⁻³² of the greatest at most.
 ///
 /// ```
-/// use mediant_costs::CostMap;
+/// use mediant_costs::CostSurface;
 ///
 /// // A road of cost 1 between swamps of cost 5; 0 stands for a wall here.
 /// let rows = [[5, 5, 5, 0], [1, 1, 1, 1], [5, 0, 5, 5]];
-/// let map = CostMap::from_fn(4, 3, |x, y| match rows[y as usize][x as usize] {
+/// let map = CostSurface::from_fn(4, 3, |x, y| match rows[y as usize][x as usize] {
 ///     0 => None,
 ///     cost => Some(f64::from(cost)),
 /// })?;
@@ -24,7 +24,7 @@ use crate::{error::CostsError, layout::Layout, scale::Scale};
 /// # Ok::<(), mediant_costs::CostsError>(())
 /// ```
 #[derive(Clone)]
-pub struct CostMap {
+pub struct CostSurface {
     layout: Layout,
     /// By position; 0 is blocked.
     weights: Versioned<u32>,
@@ -62,7 +62,7 @@ impl Bounds {
     }
 }
 
-impl CostMap {
+impl CostSurface {
     /// The longest side, in cells.
     pub const MAX_SIDE: u32 = Layout::MAX_SIDE;
 
@@ -321,15 +321,15 @@ fn identity(
 }
 
 /// Surfaces with the same cells, costs and units are one.
-impl PartialEq for CostMap {
+impl PartialEq for CostSurface {
     fn eq(&self, other: &Self) -> bool {
         self.id == other.id && self.weights() == other.weights()
     }
 }
 
-impl fmt::Debug for CostMap {
+impl fmt::Debug for CostSurface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("CostMap")
+        f.debug_struct("CostSurface")
             .field("id", &self.id)
             .field("bounds", &self.bounds())
             .finish_non_exhaustive()
