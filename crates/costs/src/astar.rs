@@ -23,7 +23,7 @@ use crate::{
 /// The cost of its paths, [`Path::cost`], is that on the surface; their length is [`Path::length`]. Observers
 /// are told costs in units of the map ([`CostGraph::to_f64`]).
 ///
-/// Whether an end can be reached it finds out by searching.
+/// It finds out by searching whether an end can be reached.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -62,7 +62,7 @@ struct Nodes {
     open: OpenList,
 }
 
-/// Where a search leads.
+/// The goal of a search.
 #[derive(Clone, Copy, Debug)]
 struct Goal {
     at: Vertex,

@@ -1,4 +1,4 @@
-//! Where the cells of a map lie in memory: tiles in a frame.
+//! The order of a map's cells in memory: tiles in a frame.
 
 /// The side of a tile, in cells. Moves reach less far, so that they end in the frame at most.
 pub(crate) const SIDE: u32 = 16;
@@ -115,7 +115,7 @@ const fn local(position: usize) -> (usize, usize) {
     (x as usize, y as usize)
 }
 
-/// How many displacements along an axis a table holds: a power of two, so that a masked index needs no check.
+/// The displacements along an axis in a table: a power of two, so that a masked index needs no check.
 const SPAN: usize = 32;
 
 const _: () = assert!(2 * REACH < SPAN as i32);

@@ -12,7 +12,7 @@ use mediant_grid::{Grid, GridError, Interrupt};
 use super::Costmap;
 use crate::error::CostsError;
 
-/// How costs are put around obstacles, in the words of nav2's inflation layer. Lengths are in meters, or in
+/// The costs around obstacles, in the words of nav2's inflation layer. Lengths are in meters, or in
 /// any other unit in which [`resolution`](Self::resolution) is the side of a cell: with 1, in cells.
 ///
 /// With the distance d from a cell's center to that of the nearest obstacle, the cost is
@@ -31,10 +31,10 @@ pub struct Inflation {
     pub resolution: f64,
     /// The radius of the largest disc around the robot's center that its footprint holds.
     pub inscribed_radius: f64,
-    /// How far costs reach. At least the inscribed radius: nav2 only warns of less, and then leaves cells
-    /// free on which the robot cannot be. 0 leaves the costmap as it is.
+    /// The distance that costs reach. At least the inscribed radius: nav2 only warns of less, and then leaves
+    /// cells free on which the robot cannot be. 0 leaves the costmap as it is.
     pub inflation_radius: f64,
-    /// How fast costs fall, per unit of length.
+    /// The rate at which costs fall, per unit of length.
     pub cost_scaling_factor: f64,
     /// Whether unknown cells take each cost above 0. Otherwise they only become inscribed.
     pub inflate_unknown: bool,

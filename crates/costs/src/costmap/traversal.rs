@@ -5,7 +5,7 @@ use mediant_grid::Interrupt;
 use super::Costmap;
 use crate::{error::CostsError, surface::CostSurface};
 
-/// How the cells of a [`Costmap`] can be crossed.
+/// The cells of a [`Costmap`] that can be crossed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traversal {
     /// The side of a cell: 1, or the resolution of the map for costs in meters.

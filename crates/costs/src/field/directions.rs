@@ -4,7 +4,7 @@ use mediant_moves::Vector;
 
 use super::CostField;
 
-/// How a direction to the source becomes a number in a raster.
+/// A way to write a direction to the source as a number in a raster.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum DirectionCode {

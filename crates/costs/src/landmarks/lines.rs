@@ -22,7 +22,7 @@ pub(super) struct Lines {
     layout: Rows,
 }
 
-/// Where the numbers of a state are.
+/// The place of a state's numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Rows {
     states: usize,

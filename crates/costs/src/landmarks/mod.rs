@@ -76,7 +76,7 @@ pub struct Landmarks {
 /// The number of a state that no landmark reaches.
 const NONE: u32 = u32::MAX;
 
-/// How a cost of a field becomes a number of 32 bits.
+/// The rounding of a field's costs to numbers of 32 bits.
 #[derive(Clone, Copy, Debug)]
 struct Rounding {
     /// The s of the module's documentation.

@@ -7,7 +7,7 @@ use mediant_search::Path;
 use super::push;
 use crate::graph::CostGraph;
 
-/// How many waypoints a segment may replace at once. What it replaces beyond, it replaces in the next pass.
+/// The most waypoints that a segment replaces at once. Further ones go in the next pass.
 const SPAN: usize = 24;
 /// The most passes.
 const PASSES: usize = 6;

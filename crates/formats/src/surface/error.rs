@@ -1,4 +1,4 @@
-//! Why a file is no raster.
+//! The reasons why a file is no raster.
 
 use std::{collections::TryReserveError, io};
 
@@ -19,7 +19,7 @@ pub enum SurfaceError {
          you meant?"
     )]
     Unknown {
-        /// How the bytes begin, quoted.
+        /// The first bytes, quoted.
         found: String,
     },
     /// A kind of file that this crate was built without.
@@ -79,7 +79,7 @@ pub enum SurfaceError {
         expected: &'static str,
         /// The text found there.
         found: String,
-        /// How to mend it.
+        /// The cure.
         remedy: &'static str,
     },
     /// An integer of 64 bits that a float of 64 bits does not hold exactly.
@@ -106,7 +106,7 @@ pub enum SurfaceError {
         expected: String,
         /// The text found there.
         found: String,
-        /// How to mend it.
+        /// The cure.
         remedy: &'static str,
     },
     /// The file ends before the last number.
@@ -151,7 +151,7 @@ pub enum SurfaceError {
         expected: String,
         /// The content found there.
         found: String,
-        /// How to mend it.
+        /// The cure.
         remedy: &'static str,
     },
     /// A raster of several bands, of which none was chosen, or one that it does not have.

@@ -146,7 +146,7 @@ impl Surface {
         self.georeference.cell_size()
     }
 
-    /// Where the raster is in the world.
+    /// The place of the raster in the world.
     #[must_use]
     pub const fn georeference(&self) -> &Georeference {
         &self.georeference

@@ -57,7 +57,7 @@ macro_rules! from_vectors {
 from_vectors!(U8 => u8, U16 => u16, I16 => i16, U32 => u32, I32 => i32, F32 => f32, F64 => f64);
 
 impl Samples {
-    /// How many there are.
+    /// The number of samples.
     #[must_use]
     pub fn len(&self) -> usize {
         each!(self, all => all.len())

@@ -7,7 +7,7 @@ use mediant_grid::{Grid, Interrupt, PlacementKind, Rules, Vertex};
 use mediant_moves::{FiniteK, Vector};
 use mediant_oracle::{Rng, Shares, WeightedMap, neighborhood, random_weighted, seeds, segment_is_legal};
 
-/// How the time of a move follows from the ground.
+/// The time of a move, from the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
     /// As here.
