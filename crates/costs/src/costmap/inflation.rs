@@ -21,7 +21,7 @@ use crate::error::CostsError;
 /// |---|---|
 /// | the obstacle itself | 254 |
 /// | d ≤ `inscribed_radius` | 253 |
-/// | up to `inflation_radius`, rounded up to whole cells | 252 · exp(−`cost_scaling_factor` · (d − `inscribed_radius`)), rounded down |
+/// | up to `inflation_radius`, rounded up to whole cells | ⌊252 · exp(−`cost_scaling_factor` · (d − r))⌋, r = `inscribed_radius` |
 /// | beyond | 0 |
 ///
 /// unless the cell has a higher one already. The exponential function is the same on every platform.

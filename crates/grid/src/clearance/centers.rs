@@ -1,4 +1,4 @@
-//! How far cells are from blocked ones, center from center: the distances of robots' costmaps.
+//! Distances of cells from blocked ones, center from center: those of robots' costmaps.
 
 use super::{
     Outside,

@@ -1,4 +1,4 @@
-//! How the samples of a TIFF are laid out, checked before any of them is read.
+//! The layout of the samples of a TIFF, checked before any of them is read.
 
 use super::{
     super::{Surface, number::Number, source::Source},

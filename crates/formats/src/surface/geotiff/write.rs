@@ -17,12 +17,12 @@ use super::{
     place::tags_of,
 };
 
-/// How a GeoTIFF is written.
+/// The form of a GeoTIFF that is written.
 ///
 /// Needs the feature `geotiff`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GeoTiffOptions {
-    /// How the samples are compressed. Whole numbers are compressed as differences.
+    /// The compression of the samples. Whole numbers are compressed as differences.
     pub compression: TiffCompression,
     /// Writes a BigTIFF also where the file will be below 4 GiB. Off by default.
     pub big_tiff: bool,
