@@ -2,18 +2,15 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Mismatch, Vertex, VertexId};
-use mediant_moves::Cost;
-use mediant_search::{
-    End, Ends, Guarantee, NodeEvent, Observer, Path, Planner, QueryError, SearchStatus,
-    parts::{Entry, Node, NodeStore, OpenList},
-};
+use mediant_grid::{Identity, Mismatch, Vertex};
+use mediant_search::{End, Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus};
 
 use crate::{
+    best_first::{BestFirst, SearchGraph},
     graph::CostGraph,
     guide::Guide,
     landmarks::Landmarks,
-    scan::{Visit, by_kind},
+    scan::{OfCosts, by_kind},
 };
 
 /// A* on a cost surface (Hart, Nilsson & Raphael 1968), for every k, both placements and all rules of motion.
@@ -48,18 +45,11 @@ use crate::{
 #[derive(Debug)]
 pub struct CostAStar {
     graph: Arc<CostGraph>,
-    search: Nodes,
+    search: BestFirst,
     starts: Vec<usize>,
     goal: Goal,
     guide: Guide,
     status: SearchStatus,
-}
-
-/// The memory of a search.
-#[derive(Debug)]
-struct Nodes {
-    nodes: NodeStore,
-    open: OpenList,
 }
 
 /// The goal of a search.
@@ -73,7 +63,7 @@ impl CostAStar {
     /// A planner with scratch memory for a graph.
     #[must_use]
     pub fn new(graph: Arc<CostGraph>) -> Self {
-        let search = Nodes { nodes: NodeStore::new(graph.states()), open: OpenList::default() };
+        let search = BestFirst::new(graph.states());
         let goal = Goal { at: Vertex::default(), state: 0 };
         let status = SearchStatus::default();
         Self { graph, search, starts: Vec::new(), goal, guide: Guide::LeastCost, status }
@@ -98,7 +88,7 @@ impl CostAStar {
     /// The bytes of scratch memory that a planner for a graph takes when it is made.
     #[must_use]
     pub fn scratch_bytes(graph: &CostGraph) -> usize {
-        NodeStore::<()>::bytes(graph.states())
+        BestFirst::bytes(graph.states())
     }
 
     /// Continues with another graph: that of a surface after an edit. The search that was begun last is
@@ -106,8 +96,7 @@ impl CostAStar {
     /// vertices.
     pub fn follow(&mut self, graph: Arc<CostGraph>) {
         self.guide.follow(&graph);
-        self.search.nodes.fit(graph.states());
-        self.search.open.clear();
+        self.search.fit(graph.states());
         self.starts.clear();
         self.status = SearchStatus::default();
         self.graph = graph;
@@ -131,114 +120,42 @@ impl CostAStar {
 
     fn begin_at(&mut self, observer: &mut impl Observer) {
         self.status = SearchStatus::Searching;
-        let Self { graph, search: Nodes { nodes, open }, starts, goal, guide, .. } = self;
+        let Self { graph, search, starts, goal, guide, .. } = self;
+        let goal = *goal;
         guide.aim(goal.state);
-        nodes.start_search();
-        open.clear();
-        for &start in &*starts {
-            let (at, id) = (graph.vertex(start), id(start));
-            let h = guide.bound(graph, (at, start), goal.at);
-            nodes.set_path(id, Cost::ZERO, 0, ());
-            observer.generated(NodeEvent { at, parent: None, g: Cost::ZERO, f: h });
-            open.push(Entry::new(h, h, id), |id, slot| nodes.set_slot(id, slot));
-        }
+        search.begin(&**graph, starts, |at, state| guide.bound(graph, (at, state), goal.at), observer);
     }
 
-    /// Expands nodes until the goal is the best open node, none is open, or the observer pauses. `K` and
-    /// `CENTER` are those of a scan.
+    /// Continues the search. `K` and `CENTER` are those of a scan.
     fn run<const K: u32, const CENTER: bool>(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { graph, search, goal, guide, .. } = self;
         let (graph, goal, guide): (&CostGraph, Goal, &Guide) = (graph, *goal, guide);
-        let (scanner, weights) = (graph.scanner(), graph.map().weights());
-        let goal_id = id(goal.state);
-        while search.open.get(0).is_none_or(|best| best.id() == goal_id || !observer.pauses(best.f())) {
-            let Nodes { nodes, open } = &mut *search;
-            let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) else {
-                return SearchStatus::Unreachable;
-            };
-            observer.percolated(swaps);
-            if entry.id() == goal_id {
-                return SearchStatus::Found;
-            }
-            nodes.set_slot(entry.id(), Node::<()>::CLOSED);
-            let Some(node) = nodes.get(entry.id()) else { continue };
-            let state = entry.id().index();
-            let at = graph.vertex(state);
-            // Only a start costs nothing.
-            let parent = (node.g != Cost::ZERO).then(|| graph.parent(at, node.arrived_by()).0);
-            observer.expanded(NodeEvent { at, parent, g: node.g, f: entry.f() });
-            if graph.end(at) == Some(state) {
-                observer.reached(at, node.g);
-            }
-            let mut relaxing = Relaxing { graph, goal, guide, at, weights, nodes, open, observer };
-            scanner.scan::<K, CENTER>(weights, (state, node.g.to_bits()), &mut relaxing);
-        }
-        SearchStatus::Searching
+        let moves = OfCosts::<K, CENTER>::new(graph.scanner(), graph.map());
+        search.run((graph, moves), goal.state, |at, state| guide.bound(graph, (at, state), goal.at), observer)
     }
 }
 
-fn id(state: usize) -> VertexId {
-    VertexId(state as u32)
-}
-
-/// The successors of a node while they are found.
-struct Relaxing<'s, O> {
-    graph: &'s CostGraph,
-    goal: Goal,
-    guide: &'s Guide,
-    /// The node.
-    at: Vertex,
-    weights: &'s [u32],
-    nodes: &'s mut NodeStore,
-    open: &'s mut OpenList,
-    observer: &'s mut O,
-}
-
-impl<O: Observer> Visit for Relaxing<'_, O> {
+impl SearchGraph for CostGraph {
     #[inline]
-    fn known(&self, to: usize) -> u64 {
-        match self.nodes.get(id(to)) {
-            Some(node) => node.g.to_bits(),
-            None if self.graph.is_center() && self.weights[to] == 0 => 0,
-            None => u64::MAX,
-        }
+    fn vertex(&self, state: usize) -> Vertex {
+        Self::vertex(self, state)
     }
 
-    fn relax(&mut self, by: usize, to: usize, cost: u64) {
-        let (to_id, g) = (id(to), Cost::from_bits(cost));
-        let at = self.graph.vertex(to);
-        let known = self.nodes.get(to_id);
-        self.nodes.set_path(to_id, g, by, ());
-        let Self { nodes, open, .. } = self;
-        let moved = |id, slot| nodes.set_slot(id, slot);
-        let event = |f| NodeEvent { at, parent: Some(self.at), g, f };
-        let (f, swaps) = match known {
-            Some(known) if known.slot != Node::<()>::CLOSED => {
-                let gain = known.g - g;
-                let f = open.get(known.slot).map_or(g, |entry| entry.f() - gain);
-                (f, open.decrease(known.slot, gain, moved))
-            }
-            // A closed node is reopened: the heuristic is consistent, so this does not happen.
-            _ => {
-                let h = self.guide.bound(self.graph, (at, to), self.goal.at);
-                (g + h, open.push(Entry::new(g + h, h, to_id), moved))
-            }
-        };
-        match known {
-            Some(_) => self.observer.updated(event(f)),
-            None => self.observer.generated(event(f)),
-        }
-        self.observer.percolated(swaps);
-    }
-}
-
-impl CostGraph {
-    /// The vertex and the state before a vertex that was reached by the move with this index.
-    fn parent(&self, at: Vertex, by: usize) -> (Vertex, usize) {
+    fn before(&self, at: Vertex, by: usize) -> (Vertex, usize) {
         let v = self.scanner().moves.all()[by].vector;
         let before = at + -v;
         let position = self.layout().position(before.x, before.y);
         (before, self.scanner().gaps.state(self.map().weights(), position, v))
+    }
+
+    #[inline]
+    fn is_blocked(&self, state: usize) -> bool {
+        self.is_center() && self.map().weights()[state] == 0
+    }
+
+    #[inline]
+    fn ends_in(&self, at: Vertex, state: usize) -> bool {
+        self.end(at) == Some(state)
     }
 }
 
@@ -285,22 +202,8 @@ impl Planner for CostAStar {
         if self.starts.is_empty() {
             return (self.goal.at == at).then(|| Path::with_cost(vec![at], 0.0));
         }
-        let mut state = self.graph.end(at)?;
-        let mut node = self.search.nodes.get(id(state))?;
-        let cost = self.graph.to_f64(node.g);
-        let (mut waypoints, mut at, mut last) = (vec![at], at, None);
-        while node.g != Cost::ZERO {
-            let by = node.arrived_by();
-            (at, state) = self.graph.parent(at, by);
-            match waypoints.last_mut().filter(|_| last == Some(by)) {
-                Some(end) => *end = at,
-                None => waypoints.push(at),
-            }
-            last = Some(by);
-            node = self.search.nodes.get(id(state))?;
-        }
-        waypoints.reverse();
-        Some(Path::with_cost(waypoints, cost))
+        let (waypoints, cost) = self.search.path(&*self.graph, at, self.graph.end(at)?)?;
+        Some(Path::with_cost(waypoints, self.graph.to_f64(cost)))
     }
 
     fn guarantee(&self) -> Guarantee {

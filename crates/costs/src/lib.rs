@@ -26,6 +26,7 @@
 //! of which nothing is compiled here but the words of queries and answers.
 
 mod astar;
+mod best_first;
 mod costmap;
 mod error;
 mod field;

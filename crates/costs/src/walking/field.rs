@@ -207,10 +207,11 @@ impl WalkingField {
 
     /// The cheapest path between a vertex and its nearest source, in its direction: of a field from the
     /// sources it begins at the source and ends at the vertex, of a field to them it begins at the vertex.
-    /// Its waypoints are where the move changes. `None` where the vertex is not in the field.
+    /// Its waypoints are where the move changes, its [cost](Path::cost) is its time. `None` where the vertex is
+    /// not in the field.
     #[must_use]
     pub fn path(&self, at: Vertex) -> Option<Path> {
-        let mut place = self.place(at)?;
+        let (time, mut place) = (self.get(at)?, self.place(at)?);
         let (mut waypoints, mut last) = (vec![at], None);
         // The cost falls with each move.
         while let Some((v, to)) = self.towards(place) {
@@ -225,7 +226,7 @@ impl WalkingField {
         if self.heading == Heading::FromSources {
             waypoints.reverse();
         }
-        Some(Path::new(waypoints))
+        Some(Path::with_cost(waypoints, time))
     }
 
     /// The directions of all vertices towards their nearest source, row by row, by a code; `None` where a

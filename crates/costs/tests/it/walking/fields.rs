@@ -33,6 +33,7 @@ fn times_and_paths_are_those_of_the_oracle() {
                 reached += 1;
                 let path = field.path(at).expect("it is in the field");
                 assert_eq!(graph.path_cost(&path), field.cost(at), "{path}: {}", about());
+                assert_eq!(Some(path.cost()), field.get(at), "{path}: {}", about());
                 let ends = match field.heading() {
                     Heading::FromSources => [source, at],
                     Heading::ToSources => [at, source],

@@ -38,6 +38,11 @@ fn paths_are_the_cheapest() {
                 let cost = answer.path().map(|path| graph.path_cost(path));
                 assert_eq!(cost, field.cost(goal).map(Some), "{start} → {goal}: {about}");
                 let Some(path) = answer.path() else { continue };
+                let time = graph.path_cost(path).map(|cost| graph.to_f64(cost));
+                assert_eq!(Some(path.cost()), time, "{path}: its cost is its time");
+                let asked =
+                    planner.distance(Ends::new(path.waypoints()[0], path.waypoints()[path.len() - 1]));
+                assert_eq!(asked.ok().flatten(), time, "{path}: the distance is the time");
                 assert_eq!([path.waypoints()[0], path.waypoints()[path.len() - 1]], [start, goal], "{about}");
                 found += 1;
             }

@@ -143,29 +143,56 @@ fn texts() {
                 `NODATA_value V`, and the rows follow";
     let digits = "; write numbers as digits with a decimal point, not a comma, and `nan` for none";
     for (text, expected) in [
-        ("ncols 2\nnrows x\n", format!("line 2, column 7: expected the number of columns or rows, found `x`{form}")),
-        ("ncols 2\n1 2\n",
-         format!("line 2, column 1: expected the keys `ncols` and `nrows` before the \
-          first number, found `1`{form}")),
+        (
+            "ncols 2\nnrows x\n",
+            format!("line 2, column 7: expected the number of columns or rows, found `x`{form}"),
+        ),
+        (
+            "ncols 2\n1 2\n",
+            format!(
+                "line 2, column 1: expected the keys `ncols` and `nrows` before the \
+          first number, found `1`{form}"
+            ),
+        ),
         ("ncols 2\nncols 2\n", format!("line 2, column 1: expected each key once, found `ncols`{form}")),
-        ("ncols 1 nrows 1\ncellsize 0\n1",
-         format!("line 2, column 10: expected a positive number, the size of a cell, \
-          found `0`{form}")),
-        ("ncols 1 nrows 1\nxllcorner inf\n1", format!("line 2, column 11: expected a coordinate, found `inf`{form}")),
-        ("ncols 1 nrows 1\nunits m\n1",
-         format!("line 2, column 1: expected a key of the header, or the first number, \
-          found `units`{form}")),
+        (
+            "ncols 1 nrows 1\ncellsize 0\n1",
+            format!(
+                "line 2, column 10: expected a positive number, the size of a cell, \
+          found `0`{form}"
+            ),
+        ),
+        (
+            "ncols 1 nrows 1\nxllcorner inf\n1",
+            format!("line 2, column 11: expected a coordinate, found `inf`{form}"),
+        ),
+        (
+            "ncols 1 nrows 1\nunits m\n1",
+            format!(
+                "line 2, column 1: expected a key of the header, or the first number, \
+          found `units`{form}"
+            ),
+        ),
         ("ncols 2 nrows 1\r\n1 0,5\r\n", format!("line 2, column 3: expected a number, found `0,5`{digits}")),
         ("ncols 2 nrows 1\n1 1e999\n", format!("line 2, column 3: expected a number, found `1e999`{digits}")),
-        ("ncols 2 nrows 2\n1 2\n3\n",
-         "expected 4 numbers, found 3; is the file cut short, or a side in the header \
-          too large?".to_owned()),
-        ("ncols 9 nrows 9\n1 2\n3\n",
-         "expected 81 numbers, found 3; is the file cut short, or a side in the header \
-          too large?".to_owned()),
-        ("ncols 2 nrows 1\n1 2\n3\n",
-         "expected the end of the file after 2 numbers, found `3`; remove what follows, \
-          or mend the sides in the header".to_owned()),
+        (
+            "ncols 2 nrows 2\n1 2\n3\n",
+            "expected 4 numbers, found 3; is the file cut short, or a side in the header \
+          too large?"
+                .to_owned(),
+        ),
+        (
+            "ncols 9 nrows 9\n1 2\n3\n",
+            "expected 81 numbers, found 3; is the file cut short, or a side in the header \
+          too large?"
+                .to_owned(),
+        ),
+        (
+            "ncols 2 nrows 1\n1 2\n3\n",
+            "expected the end of the file after 2 numbers, found `3`; remove what follows, \
+          or mend the sides in the header"
+                .to_owned(),
+        ),
     ] {
         assert_eq!(message(text.as_bytes()), expected, "{text}");
     }
