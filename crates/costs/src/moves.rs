@@ -206,6 +206,30 @@ mod tests {
         }
     }
 
+    /// Of sums from the least to the greatest, the cost is off by less than a unit, and by nothing on
+    /// average.
+    #[test]
+    fn costs_are_rounded_by_less_than_a_unit() {
+        let scale = Scale::new(1 << 16, (3.0, 5_000.0), true, (2.0, 0.75)).expect("small costs");
+        for placement in [PlacementKind::Center, PlacementKind::Corner] {
+            let moves =
+                Moves::new(placement, FiniteK::new(8).expect("a small k"), &scale).expect("a small k");
+            let mut mean = 0.0;
+            for of in moves.all() {
+                let shares = moves.shares(of);
+                for part in 0..64 {
+                    let sum = shares * 3 + shares * 4_997 * part / 63;
+                    // Below 2⁵⁰ units, where doubles are exact enough.
+                    let exact = scale.units(scale.length(of.vector)) / shares as f64 * sum as f64;
+                    let off = of.factor.cost(sum) as f64 - exact;
+                    assert!(exact < 2.0_f64.powi(50) && off.abs() < 1.0, "{:?}, {sum}: {off}", of.vector);
+                    mean += off / (64.0 * moves.all().len() as f64);
+                }
+            }
+            assert!(mean.abs() < 0.05, "{placement:?}: {mean}");
+        }
+    }
+
     #[test]
     fn shares_are_those_worked_by_hand() {
         let of = |placement, x, y| {

@@ -38,9 +38,9 @@ impl Costmap {
     ///
     /// | planner | what it gives a cell of cost c | here |
     /// |---|---|---|
-    /// | Smac 2D | length · (1 + `cost_travel_multiplier` · c / 252) | `weight` is `cost_travel_multiplier` (1.0 there; 2.0 is advised) |
+    /// | Smac 2D | length · (1 + `cost_travel_multiplier` · c / 252) | `weight` is that multiplier |
     /// | NavFn | 50 + 0.8 · c | `weight` is [`NAVFN`](Self::NAVFN), 4.032 |
-    /// | Theta* | `w_euc_cost` · length, and `w_traversal_cost` · ((26 + 0.9 · c) / 252)² a cell | [`to_costs_by`](Self::to_costs_by) |
+    /// | Theta* | `w_euc_cost` · length, `w_traversal_cost` · ((26 + 0.9 c) / 252)² a cell | [`to_costs_by`](Self::to_costs_by) |
     ///
     /// Such a path keeps off walls all along, as far as the weight pays for. `Clearance::widest` of
     /// `mediant-grid` finds a path that comes as little near as any does, and is the shortest of these. In

@@ -16,8 +16,8 @@ use crate::best_first::{BestFirst, SearchGraph};
 /// A* over elevation (Hart, Nilsson & Raphael 1968). Its heuristic is h_k at the greatest speed, on the
 /// slopes of the map, and with the least friction. Without it, it is Dijkstra's algorithm.
 ///
-/// The cost of its paths, [`Path::cost`], is their time; [`Path::length`] is their length in cells. Observers are
-/// told costs in units of the map ([`WalkingGraph::to_f64`]).
+/// The cost of its paths, [`Path::cost`], is their time; [`Path::length`] is their length in cells. Observers
+/// are told costs in units of the map ([`WalkingGraph::to_f64`]).
 ///
 /// ```
 /// use std::sync::Arc;

@@ -207,8 +207,8 @@ impl WalkingField {
 
     /// The cheapest path between a vertex and its nearest source, in its direction: of a field from the
     /// sources it begins at the source and ends at the vertex, of a field to them it begins at the vertex.
-    /// Its waypoints are where the move changes, its [cost](Path::cost) is its time. `None` where the vertex is
-    /// not in the field.
+    /// Its waypoints are where the move changes, its [cost](Path::cost) is its time. `None` where the vertex
+    /// is not in the field.
     #[must_use]
     pub fn path(&self, at: Vertex) -> Option<Path> {
         let (time, mut place) = (self.get(at)?, self.place(at)?);
