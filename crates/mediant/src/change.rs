@@ -3,13 +3,12 @@
 #[cfg(feature = "costs")]
 mod costs;
 
-use std::{
-    collections::BTreeMap,
-    sync::{Arc, OnceLock},
-};
+use std::sync::{Arc, OnceLock};
 
 use mediant_grid::{Change as GridChange, Mismatch, Rectangle, Vertex};
 
+#[cfg(feature = "costs")]
+use crate::costs::newly_blocked;
 use crate::{error::Error, map::Map, space::Space, surface::Surface};
 
 /// An edit of a space: the space before, the space after, and the cells between. Indexes are
@@ -98,9 +97,15 @@ impl Change {
         Self { before: before.clone(), after, change, surface: None, with_costs: Vec::new() }
     }
 
-    /// The change of a grid, between the spaces of the grid before and after it.
-    pub(crate) fn of_spaces([before, after]: [&Space; 2], change: GridChange) -> Self {
-        Self { after: after.clone().into(), ..Self::of_grids(before, change) }
+    /// The change of a grid, between the spaces of the grid before and after it, whose costs changed in these
+    /// places.
+    pub(crate) fn of_spaces(
+        [before, after]: [&Space; 2],
+        change: GridChange,
+        with_costs: Vec<Rectangle>,
+    ) -> Self {
+        let surface = after.surface().cloned();
+        Self { after: after.clone().into(), surface, with_costs, ..Self::of_grids(before, change) }
     }
 
     /// This change with other cells in a rectangle: see [`Map::edit`](crate::Map::edit).
@@ -108,14 +113,16 @@ impl Change {
     /// # Errors
     /// As for [`Map::edit`](crate::Map::edit); [`Error::Freed`] for a blocked cell that is freed where cells
     /// have costs.
-    pub fn edit(mut self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+    pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         self.before.map().check_edit(at)?;
+        #[cfg(feature = "costs")]
         if self.surface.is_some() {
+            let mut blocked = blocked;
             let columns = at.x..at.x.saturating_add(at.width).min(self.before.map().width());
             let rows = at.y..at.y.saturating_add(at.height).min(self.before.map().height());
             let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
             let cells: Vec<_> = cells.map(|(x, y)| (x, y, blocked(x, y))).collect();
-            return self.block(&cells);
+            return self.block(cells);
         }
         self.change = self.change.edit(at, blocked);
         self.after.take();
@@ -131,8 +138,9 @@ impl Change {
         cells: impl IntoIterator<Item = (C, bool)>,
     ) -> Result<Self, Error> {
         let cells = self.before.map().check_cells(cells)?;
+        #[cfg(feature = "costs")]
         if self.surface.is_some() {
-            return self.block(&cells);
+            return self.block(cells);
         }
         self.change = self.change.edit_cells(cells);
         self.after.take();
@@ -140,24 +148,10 @@ impl Change {
     }
 
     /// This change with cells blocked where cells have costs.
-    fn block(self, cells: &[(u32, u32, bool)]) -> Result<Self, Error> {
-        let grid = self.change.after();
-        let last: BTreeMap<(u32, u32), bool> =
-            cells.iter().map(|&(x, y, blocked)| ((x, y), blocked)).collect();
-        let freed =
-            |&(&(x, y), &blocked): &(&(u32, u32), &bool)| !blocked && grid.is_blocked(x as i32, y as i32);
-        if let Some((&(x, y), _)) = last.iter().find(freed) {
-            return Err(Error::Freed { cell: Vertex::new(x as i32, y as i32) });
-        }
-        #[cfg(feature = "costs")]
-        {
-            let is_new =
-                |&((x, y), blocked): &((u32, u32), bool)| blocked && grid.is_free(x as i32, y as i32);
-            let new = last.into_iter().filter(is_new).map(|((x, y), _)| (x, y, None)).collect();
-            self.with_edits(new)
-        }
-        #[cfg(not(feature = "costs"))]
-        Ok(self)
+    #[cfg(feature = "costs")]
+    fn block(self, cells: Vec<(u32, u32, bool)>) -> Result<Self, Error> {
+        let new = newly_blocked(self.change.after(), cells)?;
+        self.with_edits(new.into_iter().map(|(x, y)| (x, y, None)).collect())
     }
 
     /// The space before the change.

@@ -1,11 +1,13 @@
 //! Costs of cells.
 
-use std::{fmt, sync::Arc};
+use std::{collections::BTreeMap, fmt, sync::Arc};
 
 use mediant_costs::{CostSurface, CostsError};
-use mediant_grid::{Interrupt, MapId, Vertex};
+use mediant_grid::{Change, Grid, Interrupt, MapId, Rectangle, Vertex};
 
-use crate::{error::Error, map::Map, memory_check, motion::Motion, never::NEVER, space::Space};
+use crate::{
+    error::Error, map::Map, memory_check, motion::Motion, never::NEVER, recent::Recent, space::Space,
+};
 
 /// A map whose free cells have a cost a unit of length: a cost surface, made by [`Map::costs`]. It never
 /// changes; an edit makes another one. Clones share it.
@@ -24,6 +26,7 @@ use crate::{error::Error, map::Map, memory_check, motion::Motion, never::NEVER, 
 pub struct Costs {
     map: Map,
     surface: Arc<CostSurface>,
+    recent: Arc<Recent>,
 }
 
 /// Costs of cells that were edited: column, row and cost; `None` is blocked.
@@ -88,12 +91,16 @@ impl Costs {
         let cost = |x: u32, y: u32| grid.is_free(x as i32, y as i32).then(|| cost(x, y));
         let surface = CostSurface::with_cells(size, cell_size, interrupt, cost)?;
         // Without what the map keeps for paths of its own.
-        Ok(Self { map: Arc::clone(grid).into(), surface: Arc::new(surface) })
+        Ok(Self::of_parts(Arc::clone(grid).into(), Arc::new(surface)))
     }
 
     /// A map and the surface of its costs, which have the same blocked cells.
-    pub(crate) const fn of_parts(map: Map, surface: Arc<CostSurface>) -> Self {
-        Self { map, surface }
+    pub(crate) fn of_parts(map: Map, surface: Arc<CostSurface>) -> Self {
+        Self { map, surface, recent: Arc::default() }
+    }
+
+    pub(crate) const fn recent(&self) -> &Arc<Recent> {
+        &self.recent
     }
 
     /// The same costs on cells of another width and height, which are numbers of any unit of length: a cost
@@ -167,9 +174,39 @@ impl Costs {
         if self.has(&cells) {
             return Ok(self.clone());
         }
+        self.recent.settle();
         let surface = Arc::new(self.surface.edit(cells.iter().copied())?);
-        let map = self.map.edit_cells(cells.into_iter().map(|(x, y, cost)| ((x, y), cost.is_none())))?;
-        Ok(Self { map, surface })
+        let places = cells.iter().map(|&(x, y, _)| Rectangle::new(x, y, 1, 1)).collect();
+        let blocked = cells.into_iter().map(|(x, y, cost)| (x, y, cost.is_none()));
+        let change = Change::new(Arc::clone(self.map.grid())).edit_cells(blocked);
+        let recent = Recent::after(&self.recent, &change, places);
+        Ok(Self { map: Arc::clone(change.after()).into(), surface, recent: Arc::new(recent) })
+    }
+
+    /// The same costs, but with cells of a rectangle blocked: `blocked(x, y)` is asked once for each of its
+    /// cells, row by row. Cells of the rectangle beyond the map are left out.
+    ///
+    /// # Errors
+    /// [`Error::Edit`] for a rectangle that lies outside the map as a whole; [`Error::Freed`] for a blocked
+    /// cell that is freed: it needs a cost, of [`edit_cells`](Self::edit_cells).
+    pub fn edit(&self, at: Rectangle, mut blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
+        self.map.check_edit(at)?;
+        let columns = at.x..at.x.saturating_add(at.width).min(self.map.width());
+        let rows = at.y..at.y.saturating_add(at.height).min(self.map.height());
+        let cells = rows.flat_map(|y| columns.clone().map(move |x| (x, y)));
+        self.block_cells(cells.map(|(x, y)| (Vertex::new(x as i32, y as i32), blocked(x, y))))
+    }
+
+    /// The same costs, but with scattered cells blocked. The last word on a cell counts.
+    ///
+    /// # Errors
+    /// [`Error::EditCell`] for a cell outside the map; [`Error::Freed`] as for [`edit`](Self::edit).
+    pub fn block_cells<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, bool)>,
+    ) -> Result<Self, Error> {
+        let cells = newly_blocked(self.map.grid(), self.map.check_cells(cells)?)?;
+        self.edit_cells(cells.into_iter().map(|(x, y)| ((x as i32, y as i32), None)))
     }
 
     /// Whether an edit changes nothing: an equal version beside this one would be held as long as the index
@@ -205,6 +242,18 @@ impl Costs {
     #[must_use]
     pub const fn surface(&self) -> &Arc<CostSurface> {
         &self.surface
+    }
+}
+
+/// Of cells that are to be blocked or free, those that are blocked now. The last word on a cell counts.
+pub(crate) fn newly_blocked(grid: &Grid, cells: Vec<(u32, u32, bool)>) -> Result<Vec<(u32, u32)>, Error> {
+    let last: BTreeMap<(u32, u32), bool> =
+        cells.into_iter().map(|(x, y, blocked)| ((x, y), blocked)).collect();
+    let changed = |&(&(x, y), &blocked): &(&(u32, u32), &bool)| grid.is_free(x as i32, y as i32) == blocked;
+    let changed: Vec<_> = last.iter().filter(changed).collect();
+    match changed.iter().find(|&&(_, &blocked)| !blocked) {
+        Some(&(&(x, y), _)) => Err(Error::Freed { cell: Vertex::new(x as i32, y as i32) }),
+        None => Ok(changed.into_iter().map(|(&at, _)| at).collect()),
     }
 }
 

@@ -69,6 +69,22 @@ impl Within<'_, Costs> {
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::of_costs(self.of, motion.into(), self.limits.interrupt())
     }
+
+    /// [`Costs::load`].
+    ///
+    /// # Errors
+    /// As for [`Costs::load`], and [`Error::Stopped`].
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        self.of.load_index(path.as_ref(), self.limits.interrupt())
+    }
+
+    /// [`Costs::index_from_bytes`].
+    ///
+    /// # Errors
+    /// As for [`Costs::index_from_bytes`], and [`Error::Stopped`].
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.of.read_index(bytes, self.limits.interrupt())
+    }
 }
 
 impl Space {

@@ -9,6 +9,8 @@ use mediant_grid::{Identity, Interrupt};
 use mediant_moves::K;
 
 use super::Index;
+#[cfg(feature = "costs")]
+use crate::costs::Costs;
 use crate::{
     configured::ConfiguredEngine, engine::Engine, engines::Source, error::Error, map::Map, motion::Motion,
     never::NEVER, setup_error::SetupError, space::Space,
@@ -86,11 +88,49 @@ impl Map {
     }
 
     fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
-        let Identity { rules, k, .. } = file.key().identity();
-        // No engine saves an index for every k: whichever k is taken, the space refuses such a file.
-        let motion = Motion::of(k.unwrap_or(K::N8), rules);
-        Space::new(self, motion, interrupt)?.index(file, None, interrupt)
+        Space::new(self, motion_of(file), interrupt)?.index(file, None, interrupt)
     }
+}
+
+#[cfg(feature = "costs")]
+impl Costs {
+    /// Reads an index that [`Index::save`] wrote for the same costs, and makes its space: the file says which
+    /// rules and k it is for.
+    ///
+    /// # Errors
+    /// As for [`Space::load`].
+    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+        self.load_index(path.as_ref(), &NEVER)
+    }
+
+    pub(crate) fn load_index(&self, path: &FilePath, interrupt: &Interrupt) -> Result<Index, Error> {
+        let file = IndexFile::read_interruptible(path, interrupt)?;
+        self.index(&file, interrupt).map_err(|error| error.in_file(path))
+    }
+
+    /// The index that [`Index::to_bytes`] wrote for the same costs, as [`load`](Self::load) reads it from a
+    /// file.
+    ///
+    /// # Errors
+    /// As for [`Space::index_from_bytes`].
+    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+        self.read_index(bytes, &NEVER)
+    }
+
+    pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
+        self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, interrupt)
+    }
+
+    fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
+        Space::of_costs(self, motion_of(file), interrupt)?.index(file, None, interrupt)
+    }
+}
+
+/// The motion that a file's index is for. No engine saves an index for every k: whichever k is taken then,
+/// the space refuses the file.
+fn motion_of(file: &IndexFile) -> Motion {
+    let Identity { rules, k, .. } = file.key().identity();
+    Motion::of(k.unwrap_or(K::N8), rules)
 }
 
 impl Space {
