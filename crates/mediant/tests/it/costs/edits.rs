@@ -8,7 +8,7 @@ use mediant_oracle::{Rng, random_free_vertex, random_vertex, seeds};
 use super::{World, plain_space, space};
 
 /// Random edits: costs within the bounds and beyond, walls, and cells that are freed.
-fn random_edit(world: &Costs, rng: &mut Rng) -> Vec<(Vertex, Option<f64>)> {
+pub(super) fn random_edit(world: &Costs, rng: &mut Rng) -> Vec<(Vertex, Option<f64>)> {
     let (least, greatest) = world.bounds();
     (0..1 + rng.below(6))
         .map(|_| {

@@ -3,6 +3,7 @@
 
 mod edits;
 mod fields;
+mod kept;
 mod queries;
 mod refused;
 
