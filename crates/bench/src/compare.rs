@@ -2,6 +2,7 @@
 //! `benchdata/reference_timings.json`.
 
 pub mod changes;
+pub mod costs;
 mod report;
 
 use std::{
@@ -50,10 +51,13 @@ pub struct Options {
     #[arg(long, value_name = "DIR", env = "MEDIANT_MIRROR")]
     mirror: Option<PathBuf>,
     /// Instead, time engines on maps that change, and write docs/results/changes.md with its record
-    #[arg(long, conflicts_with_all = ["engines", "maps", "typed", "json"])]
+    #[arg(long, group = "study", conflicts_with_all = ["engines", "maps", "typed", "json"])]
     changes: bool,
-    /// With --changes: measure nothing, but draw the page again from its record
-    #[arg(long, requires = "changes")]
+    /// Instead, measure cost surfaces, and write docs/results/costs.md with its record
+    #[arg(long, group = "study", conflicts_with_all = ["engines", "maps", "typed", "json"])]
+    costs: bool,
+    /// With --changes or --costs: measure nothing, but draw the page again from its record
+    #[arg(long, requires = "study")]
     render: bool,
     /// Also write all figures to this file
     #[arg(long, value_name = "FILE")]
@@ -76,6 +80,9 @@ pub enum CompareError {
     /// A call of the library that failed.
     #[error(transparent)]
     Library(Box<mediant::Error>),
+    /// A call of the crate of cost surfaces that failed.
+    #[error(transparent)]
+    Costs(Box<dyn std::error::Error + Send + Sync>),
     /// A record that cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -143,6 +150,9 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     if options.changes {
         return if options.render { changes::render(root) } else { changes::run(root, &archive) };
     }
+    if options.costs {
+        return if options.render { costs::render(root, &archive) } else { costs::run(root, &archive) };
+    }
     let references = ReferenceTimings::bundled()?;
     let names: Vec<&str> = references.maps.iter().map(|row| row.map.as_str()).collect();
     if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
@@ -180,6 +190,12 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     match &options.json {
         None => Ok(()),
         Some(path) => write(path, report::json(root, &results)),
+    }
+}
+
+impl CompareError {
+    fn of_costs(error: impl std::error::Error + Send + Sync + 'static) -> Self {
+        Self::Costs(Box::new(error))
     }
 }
 

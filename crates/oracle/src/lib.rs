@@ -16,6 +16,7 @@
 //! * [`validate`]: checks that a path is legal and has the stated cost.
 //! * [`random_grid`], [`wide_grid`], [`Case`] and the generators behind them: maps and queries from a seed.
 //!   [`seeds`] are those of a suite. [`random_change`]: edits of them.
+//! * [`Surface`] and [`heights`]: cost surfaces and elevations of any size, from a seed.
 //! * [`check_interrupts`]: that work can be stopped anywhere, and then stops.
 //! * [`describe`]: the query and its map, for the message of a failing test.
 //!
@@ -50,6 +51,7 @@ mod interrupts;
 mod legality;
 mod neighborhood;
 mod random;
+mod surfaces;
 mod validate;
 mod visibility;
 mod weighted;
@@ -65,6 +67,7 @@ pub use interrupts::check_interrupts;
 pub use legality::{is_gap, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;
 pub use random::Rng;
+pub use surfaces::{Surface, heights};
 pub use validate::{Fault, validate};
 pub use visibility::{Visibility, VisibilityCosts, VisibilityGraph};
 pub use weighted::{

@@ -2,12 +2,39 @@
 
 /// A ring of buckets, each 2^`shift` units of cost wide (Dial 1969). No state is queued further ahead than
 /// the ring is long.
+///
+/// All buckets share a pool of chunks, which go from those that were emptied to those that fill: so it takes
+/// little more than what is queued at once. A list of its own for each bucket would keep the greatest length
+/// that it ever had, and all of them together much more.
 #[derive(Debug)]
 pub(super) struct Buckets {
-    ring: Vec<Vec<u32>>,
+    ring: Vec<Bucket>,
+    /// The states of all chunks, [`CHUNK`] each.
+    pool: Vec<u32>,
+    /// Of each chunk the one before it in its bucket, or in the list of those that are free.
+    before: Vec<u32>,
+    free: u32,
     shift: u32,
     current: u64,
     queued: usize,
+}
+
+/// The states of a bucket: full chunks, but for the last one.
+#[derive(Clone, Copy, Debug)]
+struct Bucket {
+    last: u32,
+    /// The states in the last chunk.
+    len: u32,
+}
+
+/// The states of a chunk.
+const CHUNK: usize = 64;
+/// No chunk.
+const NONE: u32 = u32::MAX;
+
+impl Bucket {
+    /// The next state needs a chunk.
+    const EMPTY: Self = Self { last: NONE, len: CHUNK as u32 };
 }
 
 /// The most buckets. With more, looking for the next one that holds something takes longer than scanning some
@@ -24,7 +51,8 @@ impl Buckets {
         let shift = if greatest >> narrow < MOST { narrow } else { most };
         // The move begins anywhere in its bucket.
         let ahead = (greatest >> shift) + 2;
-        Self { ring: vec![Vec::new(); ahead.next_power_of_two() as usize], shift, current: 0, queued: 0 }
+        let ring = vec![Bucket::EMPTY; ahead.next_power_of_two() as usize];
+        Self { ring, pool: Vec::new(), before: Vec::new(), free: NONE, shift, current: 0, queued: 0 }
     }
 
     #[inline]
@@ -50,9 +78,35 @@ impl Buckets {
         let bucket = self.of(cost);
         if bucket != self.of(before) || bucket == self.current {
             let slot = self.slot(bucket);
-            self.ring[slot].push(state as u32);
+            if self.ring[slot].len as usize == CHUNK {
+                let last = self.chunk(self.ring[slot].last);
+                self.ring[slot] = Bucket { last, len: 0 };
+            }
+            let Bucket { last, len } = &mut self.ring[slot];
+            self.pool[*last as usize * CHUNK + *len as usize] = state as u32;
+            *len += 1;
             self.queued += 1;
         }
+    }
+
+    /// A chunk after another one of its bucket.
+    #[cold]
+    fn chunk(&mut self, before: u32) -> u32 {
+        let chunk = self.free;
+        if chunk == NONE {
+            let chunks = self.before.len();
+            if chunks == self.before.capacity() {
+                // Memory by eighths, not by doubling.
+                let more = (chunks / 8).max(16);
+                self.before.reserve_exact(more);
+                self.pool.reserve_exact(more * CHUNK);
+            }
+            self.before.push(before);
+            self.pool.resize((chunks + 1) * CHUNK, 0);
+            return chunks as u32;
+        }
+        self.free = std::mem::replace(&mut self.before[chunk as usize], before);
+        chunk
     }
 
     /// Takes the states of the next bucket that holds any into an empty list. Returns whether one does.
@@ -69,7 +123,7 @@ impl Buckets {
     /// The next bucket that holds states.
     pub(super) fn first(&self) -> Option<u64> {
         (self.queued > 0)
-            .then(|| (self.current..).find(|&bucket| !self.ring[self.slot(bucket)].is_empty()))?
+            .then(|| (self.current..).find(|&bucket| self.ring[self.slot(bucket)].last != NONE))?
     }
 
     /// Goes on to a bucket, before which none is queued, and takes its states into an empty list; those that
@@ -77,7 +131,14 @@ impl Buckets {
     pub(super) fn take_from(&mut self, bucket: u64, states: &mut Vec<u32>) {
         self.current = bucket;
         let slot = self.slot(bucket);
-        std::mem::swap(&mut self.ring[slot], states);
+        let Bucket { mut last, len } = std::mem::replace(&mut self.ring[slot], Bucket::EMPTY);
+        let mut len = len as usize;
+        while last != NONE {
+            let first = last as usize * CHUNK;
+            states.extend_from_slice(&self.pool[first..first + len]);
+            let before = std::mem::replace(&mut self.before[last as usize], self.free);
+            (self.free, last, len) = (last, before, CHUNK);
+        }
         self.queued -= states.len();
     }
 
@@ -88,6 +149,7 @@ impl Buckets {
 
     /// The memory used, in bytes.
     pub(super) fn memory_bytes(&self) -> usize {
-        self.ring.iter().map(|bucket| size_of::<Vec<u32>>() + bucket.capacity() * size_of::<u32>()).sum()
+        self.ring.capacity() * size_of::<Bucket>()
+            + (self.pool.capacity() + self.before.capacity()) * size_of::<u32>()
     }
 }

@@ -122,3 +122,64 @@ fn gap_any_angle() {
     let [open, closed] = [OPEN, CLOSED].map(|rules| picture_by(Engine::Anya, GAP, rules, 0, None));
     insta::assert_snapshot!(format!("{open}\n{closed}"));
 }
+
+/// A road `_` costs 1, grass `,` 3, water `~` 9.
+const TERRAIN: [&str; 8] = [
+    ",,,,,,~~,,,,",
+    ",,,,,,~~,,,,",
+    ",___,,~~,,,,",
+    ",_#_,,~~,__,",
+    ",_#_________",
+    ",_#,,,~~,,,_",
+    ",,,,,~~~,,,_",
+    ",,,,~~~,,,,_",
+];
+
+/// The picture of the cheapest path between two vertices, in the ground that it crosses.
+fn picture_of_costs(engine: Engine, rules: Rules, k: u32, ends: Ends) -> String {
+    let sign = |x: u32, y: u32| TERRAIN[y as usize].as_bytes()[x as usize];
+    let map = Map::from_fn(12, 8, |x, y| sign(x, y) == b'#').expect("a map");
+    let cost = |sign: u8| match sign {
+        b'_' => 1.0,
+        b',' => 3.0,
+        _ => 9.0,
+    };
+    let costs = map.costs(TERRAIN.iter().flat_map(|row| row.bytes()).map(cost)).expect("costs");
+    let space = costs.space(Motion::new(FiniteK::new(k).expect("a k"), rules)).expect("a small k");
+    let mut planner = space.planner(engine).expect("it knows costs");
+    let path = planner.find(ends).expect("both ends are free").into_path().expect("there is a way");
+    let drawing = draw(map.grid(), rules.placement(), path.waypoints());
+    let (scale, origin) =
+        if rules.placement() == mediant_grid::PlacementKind::Center { (1, 0) } else { (2, 1) };
+    let columns = (scale * 12 + origin) as usize;
+    let padded = |line: &str| line.chars().chain(std::iter::repeat(' ')).take(columns).collect();
+    let mut lines: Vec<Vec<char>> = drawing.lines().map(padded).collect();
+    for y in 0..8 {
+        for x in 0..12 {
+            let at = &mut lines[(scale * y + origin) as usize][(scale * x + origin) as usize];
+            if [' ', '.'].contains(at) {
+                *at = char::from(sign(x, y));
+            }
+        }
+    }
+    let lines: Vec<String> =
+        lines.iter().map(|line| line.iter().collect::<String>().trim_end().to_owned()).collect();
+    format!("k = {k}, {rules}: costs {:.4}, {:.4} long\n{}\n", path.cost(), path.length(), lines.join("\n"))
+}
+
+/// Over the road and its bridge, and the shortcuts that more directions find.
+#[test]
+fn terrain_center() {
+    let ends = Ends::new((1, 6), (11, 0));
+    let pictures = [2, 3, 4, 5, 8].map(|k| picture_of_costs(Engine::AStar, NEVER, k, ends));
+    insta::assert_snapshot!(pictures.join("\n"));
+}
+
+/// Along grid lines a path costs the cheaper of the two cells beside it.
+#[test]
+fn terrain_corner() {
+    let ends = Ends::new((1, 7), (12, 0));
+    let pictures =
+        [(OPEN, 2), (OPEN, 3), (CLOSED, 5)].map(|(rules, k)| picture_of_costs(Engine::AStar, rules, k, ends));
+    insta::assert_snapshot!(pictures.join("\n"));
+}

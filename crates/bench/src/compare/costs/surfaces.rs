@@ -1,0 +1,89 @@
+//! The surfaces of the study: five by a seed, and a map of a game by its terrain.
+
+use std::sync::Arc;
+
+use mediant_costs::{CostGraph, CostSurface};
+use mediant_grid::{CornerRule, Rules};
+use mediant_moves::FiniteK;
+use mediant_oracle::{Rng, Surface};
+use mediant_sets::Archive;
+
+use super::SEED;
+use crate::{ProblemError, compare::CompareError};
+
+/// The set and the name of the map by terrain.
+pub(super) const TERRAIN: (&str, &str) = ("wc3maps512", "icecrown");
+
+/// A kind of surface, of any side.
+pub(super) enum Kind {
+    /// By a seed.
+    Made(Surface),
+    /// The cells of a map: costs row by row, 0 is blocked, and the cells of a row.
+    Terrain(Vec<u32>, usize),
+}
+
+impl Kind {
+    pub(super) const fn name(&self) -> &'static str {
+        match self {
+            Self::Made(surface) => surface.name(),
+            Self::Terrain(..) => "terrain",
+        }
+    }
+
+    /// The costs of side × side cells, row by row; of a map those of its middle. 0 is blocked.
+    pub(super) fn costs(&self, side: u32) -> Vec<u32> {
+        match self {
+            Self::Made(surface) => surface.costs(side, &mut Rng::new(SEED)),
+            Self::Terrain(costs, columns) => {
+                let side = side as usize;
+                let rows = costs.len() / columns;
+                let [left, top] = [*columns, rows].map(|all| all.saturating_sub(side) / 2);
+                let cell = |at: usize| {
+                    let (x, y) = (left + at % side, top + at / side);
+                    if x < *columns && y < rows { costs[y * columns + x] } else { 0 }
+                };
+                (0..side * side).map(cell).collect()
+            }
+        }
+    }
+
+    /// The search graph between centers under `never`.
+    pub(super) fn graph(&self, side: u32, k: u32) -> Result<Arc<CostGraph>, CompareError> {
+        let costs = self.costs(side);
+        let cost =
+            |x: u32, y: u32| Some(f64::from(costs[(y * side + x) as usize])).filter(|&cost| cost > 0.0);
+        let surface = Arc::new(CostSurface::from_fn(side, side, cost).map_err(CompareError::of_costs)?);
+        graph(&surface, k)
+    }
+}
+
+/// The search graph of a surface, between centers under `never`.
+pub(super) fn graph(surface: &Arc<CostSurface>, k: u32) -> Result<Arc<CostGraph>, CompareError> {
+    let k = FiniteK::new(k).map_err(CompareError::of_costs)?;
+    let graph = CostGraph::new(Arc::clone(surface), Rules::Center(CornerRule::Never), k);
+    Ok(Arc::new(graph.map_err(CompareError::of_costs)?))
+}
+
+/// All kinds; without the map if it is not there.
+pub(super) fn surfaces(archive: &Archive) -> Result<Vec<Kind>, CompareError> {
+    use Surface as S;
+    let made = [S::Elevation, S::Patches, S::Friction, S::Rooms, S::Equal].map(Kind::Made);
+    let (set, name) = TERRAIN;
+    let file = archive.map(set, name).map_err(ProblemError::from)?;
+    Ok(file.as_deref().and_then(terrain).into_iter().chain(made).collect())
+}
+
+/// Ground costs 1, trees 3, shallow water 4, water 9; all else is blocked.
+fn terrain(map: &[u8]) -> Option<Kind> {
+    let text = std::str::from_utf8(map).ok()?;
+    let rows: Vec<&str> = text.lines().skip_while(|line| line.trim() != "map").skip(1).collect();
+    let cost = |tile: char| match tile {
+        '.' | 'G' => 1,
+        'T' => 3,
+        'S' => 4,
+        'W' => 9,
+        _ => 0,
+    };
+    let costs = rows.iter().flat_map(|row| row.trim_end().chars().map(cost)).collect();
+    Some(Kind::Terrain(costs, rows.first()?.trim_end().len()))
+}
