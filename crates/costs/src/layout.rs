@@ -47,6 +47,11 @@ impl Layout {
         self.height
     }
 
+    /// The tiles in a row, those of the frame included.
+    pub(crate) const fn tiles_across(self) -> usize {
+        self.columns as usize
+    }
+
     /// The rows of tiles.
     const fn rows(self) -> u32 {
         self.height.div_ceil(SIDE) + 2

@@ -41,7 +41,8 @@ pub(super) fn search(
         search
             .run(unreached(graph, search.interrupt)?, OfCosts::<K, CENTER>::new(graph.scanner(), graph.map()))
     }
-    let search = Search { sources, limit, with_sources, threads, interrupt };
+    let across = graph.map().layout().tiles_across();
+    let search = Search { sources, limit, with_sources, threads, across, interrupt };
     by_kind!(graph, [run](graph, search))
 }
 
@@ -55,6 +56,8 @@ pub(crate) struct Search<'s> {
     /// Whether it finds the nearest source of each state.
     pub(crate) with_sources: bool,
     pub(crate) threads: NonZeroUsize,
+    /// The tiles in a row of the map.
+    pub(crate) across: usize,
     pub(crate) interrupt: &'s Interrupt,
 }
 

@@ -1,14 +1,19 @@
 //! The search of a field on several threads.
 //!
-//! All threads work on one bucket at a time. Each has a queue of its own, and shares the states of its
-//! current bucket with the others, by pieces, so that none waits long. A cost is lowered by compare-and-swap.
+//! Each thread owns blocks of tiles, all over the map: it alone lowers costs there, scans the states there,
+//! and has a queue of its own. So no cost is written by two, and a plain store does where threads that share
+//! their states would need a locked one, which keeps a core from looking ahead. All threads work on one
+//! bucket at a time. A better path into another thread's block becomes a message, which that one reads when
+//! all are done with the bucket: a bucket is as wide as the least move, so nothing leads from it into itself;
+//! where it is wider, it is opened again.
+//!
 //! The costs at the end are the least that satisfy all moves, whoever found them when: the same integers as
 //! on one thread.
 
 use std::{
     hint::spin_loop,
     sync::{
-        RwLock,
+        Mutex, OnceLock, PoisonError,
         atomic::{
             AtomicBool, AtomicU64, AtomicUsize,
             Ordering::{AcqRel, Acquire, Relaxed, Release},
@@ -23,17 +28,30 @@ use super::{
     buckets::Buckets,
     search::{STAGE, Search},
 };
-use crate::scan::{Scanning, Visit};
+use crate::{
+    layout::TILE,
+    scan::{Scanning, Visit},
+};
 
-/// The states that a thread takes at a time.
-const PIECE: usize = 256;
+/// The states between two questions of an interrupt.
+const PIECE: usize = 1 << 12;
+/// The side of a block, in tiles. A smaller one has more moves that leave it, of a larger one fewer lie on
+/// the front.
+const BLOCK: usize = 4;
+
+/// A better path into a block of another thread: the state and its cost.
+type Message = (u32, u64);
+/// The messages from one thread to each.
+type Outbox = Box<[Mutex<Vec<Message>>]>;
 
 /// All that threads share.
 struct Shared<'s, M> {
     moves: M,
     costs: &'s [AtomicU64],
-    /// For each thread the states of its current bucket, and how many of them are taken.
-    states: Box<[(RwLock<Vec<u32>>, AtomicUsize)]>,
+    /// Of each tile the thread that owns it; known once all threads are there.
+    owners: OnceLock<Box<[u8]>>,
+    /// The messages from each thread to each.
+    messages: Box<[Outbox]>,
     meeting: Meeting,
     /// For rounds in turn: the first bucket in which some thread has queued something.
     first: [AtomicU64; 3],
@@ -82,14 +100,16 @@ impl Drop for EndsAll<'_> {
 pub(super) fn run<M: Scanning>(
     moves: M,
     costs: &mut Vec<u64>,
-    Search { sources, limit, threads, interrupt, .. }: Search<'_>,
+    Search { sources, limit, threads, across, interrupt, .. }: Search<'_>,
 ) -> Result<usize, Interrupted> {
+    let threads = threads.get().min(MOST);
     // The standard library keeps the memory, there and back.
     let shared_costs: Vec<AtomicU64> = std::mem::take(costs).into_iter().map(AtomicU64::new).collect();
     let shared = Shared {
         moves,
         costs: &shared_costs,
-        states: (0..threads.get()).map(|_| Default::default()).collect(),
+        owners: OnceLock::new(),
+        messages: (0..threads).map(|_| (0..threads).map(|_| Mutex::default()).collect()).collect(),
         meeting: Meeting {
             threads: AtomicUsize::new(usize::MAX),
             arrived: AtomicUsize::new(0),
@@ -103,11 +123,14 @@ pub(super) fn run<M: Scanning>(
     let results: Vec<Result<usize, Interrupted>> = thread::scope(|scope| {
         let shared = &shared;
         let spawn = |number| {
-            let work = move || work(shared, number, &[]);
+            let work = move || work(shared, number, sources);
             thread::Builder::new().spawn_scoped(scope, work).ok()
         };
-        let others: Vec<_> = (1..threads.get()).map_while(spawn).collect();
-        shared.meeting.threads.store(others.len() + 1, Release);
+        let others: Vec<_> = (1..threads).map_while(spawn).collect();
+        let there = others.len() + 1;
+        let owner = |tile: usize| ((tile / across / BLOCK + tile % across / BLOCK) % there) as u8;
+        shared.owners.get_or_init(|| (0..shared.costs.len().div_ceil(TILE)).map(owner).collect());
+        shared.meeting.threads.store(there, Release);
         let mine = work(shared, 0, sources);
         let others = others.into_iter().map(|other| match other.join() {
             Ok(result) => result,
@@ -119,21 +142,32 @@ pub(super) fn run<M: Scanning>(
     results.into_iter().sum()
 }
 
+/// The most threads: their numbers are bytes.
+const MOST: usize = 1 << 8;
+
 /// The work of a thread.
 fn work<M: Scanning>(
     shared: &Shared<'_, M>,
     number: usize,
     sources: &[(usize, u32)],
 ) -> Result<usize, Interrupted> {
-    let Shared { costs, states, meeting, limit, interrupt, .. } = shared;
+    let Shared { costs, messages, meeting, limit, interrupt, .. } = shared;
     let moves = shared.moves;
     let _ends_all = EndsAll(meeting);
-    let (least, greatest) = moves.bounds();
-    let mut visit = Lowering { costs, queue: Buckets::new(least, greatest) };
-    for &(state, _) in sources {
-        visit.relax(0, state, 0);
+    // Then the owners are known.
+    if !meeting.wait() {
+        return Ok(0);
     }
-    let mut stopped = Ok(());
+    let owners = shared.owners.get().map_or(&[][..], |owners| owners);
+    let (least, greatest) = moves.bounds();
+    let (queue, to_others) = (Buckets::new(least, greatest), vec![Vec::new(); messages.len()]);
+    let mut visit = Owned { costs, owners, number: number as u8, queue, to_others };
+    for &(state, _) in sources {
+        if owners[state / TILE] == visit.number {
+            visit.lower(state, 0);
+        }
+    }
+    let (mut states, mut stopped) = (Vec::new(), Ok(()));
     for round in 0_usize.. {
         let [first, after_next] = [round, round + 2].map(|round| &shared.first[round % 3]);
         first.fetch_min(visit.queue.first().unwrap_or(u64::MAX), AcqRel);
@@ -146,49 +180,69 @@ fn work<M: Scanning>(
         }
         // All have left the round before, which read it, and none has begun the next.
         after_next.store(u64::MAX, Release);
-        let (mine, taken) = &states[number];
-        if let Ok(mut mine) = mine.write() {
-            mine.clear();
-            visit.queue.take_from(bucket, &mut mine);
-            taken.store(0, Release);
+        states.clear();
+        visit.queue.take_from(bucket, &mut states);
+        for piece in states.chunks(PIECE) {
+            stopped = stopped.and_then(|()| interrupt.check(STAGE));
+            if stopped.is_err() {
+                meeting.is_over.store(true, Release);
+                break;
+            }
+            for &state in piece {
+                let state = state as usize;
+                let cost = visit.known(state);
+                if visit.queue.of(cost) == bucket {
+                    moves.scan((state, cost), &mut visit);
+                }
+            }
+        }
+        for (to, mine) in
+            messages[number].iter().zip(&mut visit.to_others).filter(|(_, mine)| !mine.is_empty())
+        {
+            // The other one has emptied it.
+            std::mem::swap(&mut *to.lock().unwrap_or_else(PoisonError::into_inner), mine);
         }
         if !meeting.wait() {
             break;
         }
-        for other in 0..states.len() {
-            let (theirs, taken) = &states[(number + other) % states.len()];
-            let Ok(theirs) = theirs.read() else { continue };
-            while let Some(piece) = next_piece(&theirs, taken) {
-                stopped = stopped.and_then(|()| interrupt.check(STAGE));
-                if stopped.is_err() {
-                    meeting.is_over.store(true, Release);
-                }
-                for &state in piece {
-                    let state = state as usize;
-                    let cost = costs[state].load(Relaxed);
-                    if visit.queue.of(cost) == bucket {
-                        moves.scan((state, cost), &mut visit);
-                    }
-                }
+        for from in messages {
+            let mut from = from[number].lock().unwrap_or_else(PoisonError::into_inner);
+            for (state, cost) in from.drain(..) {
+                visit.lower(state as usize, cost);
             }
         }
     }
-    stopped.map(|()| visit.queue.memory_bytes())
+    let of_messages: usize = messages[number]
+        .iter()
+        .map(|to| to.lock().unwrap_or_else(PoisonError::into_inner).capacity() * size_of::<Message>())
+        .sum();
+    stopped.map(|()| visit.queue.memory_bytes() + of_messages)
 }
 
-/// Takes the next states of a list.
-fn next_piece<'s>(states: &'s [u32], taken: &AtomicUsize) -> Option<&'s [u32]> {
-    let from = taken.fetch_add(PIECE, AcqRel);
-    states.get(from..states.len().min(from + PIECE)).filter(|piece| !piece.is_empty())
-}
-
-/// Costs that several threads lower, with the queue of one.
-struct Lowering<'s> {
+/// Costs, of which a thread lowers those in its own blocks.
+struct Owned<'s> {
     costs: &'s [AtomicU64],
+    owners: &'s [u8],
+    number: u8,
     queue: Buckets,
+    /// Messages to each thread.
+    to_others: Vec<Vec<Message>>,
 }
 
-impl Visit for Lowering<'_> {
+impl Owned<'_> {
+    /// Lowers the cost of a state of this thread, if the new one is less.
+    #[inline]
+    fn lower(&mut self, state: usize, cost: u64) {
+        let before = self.costs[state].load(Relaxed);
+        if cost < before {
+            self.costs[state].store(cost, Relaxed);
+            self.queue.push(state, cost, before);
+        }
+    }
+}
+
+impl Visit for Owned<'_> {
+    /// That of another thread's state may be less by now; a message too many does no harm.
     #[inline]
     fn known(&self, to: usize) -> u64 {
         self.costs[to].load(Relaxed)
@@ -196,10 +250,11 @@ impl Visit for Lowering<'_> {
 
     #[inline]
     fn relax(&mut self, _: usize, to: usize, cost: u64) {
-        let before = self.costs[to].fetch_min(cost, Relaxed);
-        // Of several threads that find the same cost, the first one queues it.
-        if cost < before {
-            self.queue.push(to, cost, before);
+        let owner = self.owners[to / TILE];
+        if owner == self.number {
+            self.lower(to, cost);
+        } else {
+            self.to_others[owner as usize].push((to as u32, cost));
         }
     }
 }

@@ -108,6 +108,7 @@ impl WalkingField {
             limit: graph.greatest_cost(query.limit),
             with_sources: query.allocation,
             threads,
+            across: graph.map().layout().tiles_across(),
             interrupt,
         };
         let Labels { mut costs, sources: allocation, queue_bytes } = run(&graph, heading, search)?;
