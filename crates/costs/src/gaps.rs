@@ -6,6 +6,8 @@
 //! its position is that of the lower quadrant, a number beyond all positions that of the upper one. A path
 //! ends at a gap only in the quadrant of the vertex's own cell.
 
+use std::sync::Arc;
+
 use mediant_moves::Vector;
 
 use crate::{layout::Steps, surface::CostSurface};
@@ -14,7 +16,7 @@ use crate::{layout::Steps, surface::CostSurface};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gaps {
     /// Their positions, in increasing order.
-    positions: Box<[u32]>,
+    positions: Arc<[u32]>,
     /// The number of positions of the map.
     len: usize,
 }
@@ -30,12 +32,33 @@ impl Gaps {
         Self { positions: positions.into(), len: layout.len() }
     }
 
-    pub(crate) const fn is_empty(&self) -> bool {
+    /// The gaps after these cells of the map changed: only their corners are looked at.
+    pub(crate) fn after(&self, map: &CostSurface, steps: &Steps, cells: &[(u32, u32)]) -> Self {
+        let (layout, weights) = (map.layout(), map.weights());
+        let corner = |&(x, y): &(u32, u32), (dx, dy)| layout.position(x as i32 + dx, y as i32 + dy) as u32;
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        let mut looked_at: Vec<u32> =
+            cells.iter().flat_map(|cell| corners.map(|by| corner(cell, by))).collect();
+        looked_at.sort_unstable();
+        looked_at.dedup();
+        let is_known = |at: u32| self.positions.binary_search(&at).is_ok();
+        let is_now = |at: u32| is_gap(weights, steps, at as usize);
+        if looked_at.iter().all(|&at| is_known(at) == is_now(at)) {
+            return self.clone();
+        }
+        let kept = self.positions.iter().copied().filter(|at| looked_at.binary_search(at).is_err());
+        let mut positions: Vec<u32> =
+            kept.chain(looked_at.iter().copied().filter(|&at| is_now(at))).collect();
+        positions.sort_unstable();
+        Self { positions: positions.into(), ..*self }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
         self.positions.is_empty()
     }
 
     /// The number of states beyond the positions.
-    pub(crate) const fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.positions.len()
     }
 

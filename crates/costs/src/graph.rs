@@ -65,18 +65,21 @@ impl CostGraph {
         Ok(Self { map, k, scanner, least })
     }
 
-    /// The search graph of another surface under the same rules and k: that after an edit. Where the surface
-    /// has kept its units, it shares all tables; only closed gaps are looked for anew.
+    /// The search graph of another surface under the same rules and k: that after an edit, which changed these
+    /// cells at most. Where the surface has kept its units, it shares all tables, and closed gaps are looked
+    /// for around the cells alone. Cells outside the map are left out.
     ///
     /// # Errors
     /// None that this graph can have.
-    pub fn after(&self, map: Arc<CostSurface>) -> Result<Self, CostsError> {
+    pub fn after(&self, map: Arc<CostSurface>, cells: &[(u32, u32)]) -> Result<Self, CostsError> {
         if map.scale() != self.map.scale() || map.layout() != self.map.layout() {
             return Self::new(map, self.rules(), self.k);
         }
         let mut after = self.clone();
         if is_closed(self.rules()) {
-            after.scanner.gaps = Gaps::of(&map, &after.scanner.steps);
+            let is_on = |&&(x, y): &&(u32, u32)| x < map.width() && y < map.height();
+            let cells: Vec<_> = cells.iter().filter(is_on).copied().collect();
+            after.scanner.gaps = self.scanner.gaps.after(&map, &after.scanner.steps, &cells);
         }
         after.map = map;
         Ok(after)

@@ -126,8 +126,8 @@ pub(crate) trait Keeps {
     /// A space that is not kept.
     fn make(&self, motion: Motion, limits: Limits) -> Result<Space, Error>;
 
-    /// Its costs, with the rules and the k of a space of earlier ones.
-    fn surface_like(&self, earlier: &Space) -> Result<Option<Surface>, Error>;
+    /// Its costs, with the rules and the k of a space of earlier ones, which differ in these places.
+    fn surface_like(&self, earlier: &Space, places: &[Rectangle]) -> Result<Option<Surface>, Error>;
 
     fn kept(&self, motion: Motion) -> Option<Space> {
         self.recent().spaces.get(&motion)
@@ -138,9 +138,11 @@ pub(crate) trait Keeps {
             return Ok(space);
         }
         let before = self.recent().before().clone();
-        let known = before.and_then(|before| Some((before.recent.spaces.get(&motion)?, before.change)));
+        let known = before.and_then(|before| Some((before.recent.spaces.get(&motion)?, before)));
         let space = match known {
-            Some((known, change)) => known.follow(&change, self.surface_like(&known)?),
+            Some((known, before)) => {
+                known.follow(&before.change, self.surface_like(&known, &before.with_costs)?)
+            }
             None => self.make(motion, limits.into())?,
         };
         self.recent().spaces.put(motion, &space);
@@ -185,7 +187,7 @@ impl Keeps for Map {
         self.within(limits).space(motion)
     }
 
-    fn surface_like(&self, _: &Space) -> Result<Option<Surface>, Error> {
+    fn surface_like(&self, _: &Space, _: &[Rectangle]) -> Result<Option<Surface>, Error> {
         Ok(None)
     }
 }
@@ -254,6 +256,7 @@ impl Map {
 mod on_costs {
     use std::sync::Arc;
 
+    use mediant_grid::Rectangle;
     use mediant_search::Limits;
 
     use super::{Keeps, Recent};
@@ -278,8 +281,8 @@ mod on_costs {
             self.within(limits).space(motion)
         }
 
-        fn surface_like(&self, earlier: &Space) -> Result<Option<Surface>, Error> {
-            earlier.surface().map(|surface| surface.after(self.clone())).transpose()
+        fn surface_like(&self, earlier: &Space, places: &[Rectangle]) -> Result<Option<Surface>, Error> {
+            earlier.surface().map(|surface| surface.after(self.clone(), places)).transpose()
         }
     }
 

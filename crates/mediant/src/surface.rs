@@ -16,7 +16,7 @@ mod given {
     use std::sync::Arc;
 
     use mediant_costs::CostGraph;
-    use mediant_grid::Identity;
+    use mediant_grid::{Identity, Rectangle};
     use mediant_search::{Path, PathCosts};
 
     use crate::{costs::Costs, error::Error};
@@ -29,9 +29,15 @@ mod given {
     }
 
     impl Surface {
-        /// The same rules and k on other costs.
-        pub(crate) fn after(&self, costs: Costs) -> Result<Self, Error> {
-            let graph = Arc::new(self.graph.after(Arc::clone(costs.surface()))?);
+        /// The same rules and k on other costs, which differ in these places.
+        pub(crate) fn after(&self, costs: Costs, places: &[Rectangle]) -> Result<Self, Error> {
+            let rows = |at: &Rectangle| at.y..at.y + at.height;
+            let cells = places.iter().flat_map(|at| {
+                let columns = at.x..at.x + at.width;
+                rows(at).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+            });
+            let cells: Vec<_> = cells.collect();
+            let graph = Arc::new(self.graph.after(Arc::clone(costs.surface()), &cells)?);
             Ok(Self { costs, graph })
         }
 

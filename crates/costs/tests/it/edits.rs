@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use mediant_costs::{CostAStar, CostField, CostFieldQuery, CostSurface};
-use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
-use mediant_oracle::{Rng, random_weighted, seeds};
+use mediant_costs::{CostAStar, CostField, CostFieldQuery, CostGraph, CostSurface};
+use mediant_grid::{CornerRule, DiagonalGap, Interrupt, PlacementKind, Rules, Vertex};
+use mediant_moves::FiniteK;
+use mediant_oracle::{Rng, random_free_vertex, random_weighted, seeds};
 use mediant_search::{Ends, Planner};
 
 use crate::common::{graph, surface};
@@ -15,6 +16,9 @@ fn an_edited_surface_is_the_one_made_anew() {
         let (map, about) = random_weighted(seed);
         let mut current = surface(&map, &about);
         let mut rng = Rng::new(seed);
+        let rules = Rules::Corner(DiagonalGap::Closed);
+        let k = FiniteK::new(2 + rng.below(7)).expect("a k");
+        let mut followed = CostGraph::new(Arc::clone(&current), rules, k).expect("a small k");
         for edit in 0..8 {
             let cells: Vec<(u32, u32, Option<f64>)> = (0..1 + rng.below(5))
                 .map(|_| {
@@ -37,6 +41,22 @@ fn an_edited_surface_is_the_one_made_anew() {
                     let expected = edited.map_or_else(|| current.cost(x, y), |&(_, _, cost)| cost);
                     assert_eq!(next.cost(x, y), expected, "seed {seed}, edit {edit}: {cells:?}: {about}");
                 }
+            }
+            // Closed gaps follow the cells.
+            let places: Vec<_> = cells.iter().map(|&(x, y, _)| (x, y)).collect();
+            followed = followed.after(Arc::clone(&next), &places).expect("the same k");
+            let anew = CostGraph::new(Arc::clone(&next), rules, k).expect("a small k");
+            if let Some(source) = random_free_vertex(&mut rng, map.grid(), PlacementKind::Corner) {
+                let rows = |graph: &CostGraph| {
+                    let query = CostFieldQuery::new(std::slice::from_ref(&source));
+                    let field = CostField::new(Arc::new(graph.clone()), query, &Interrupt::NEVER);
+                    field.map(CostField::into_rows).map_err(|error| error.to_string())
+                };
+                assert_eq!(
+                    rows(&followed),
+                    rows(&anew),
+                    "seed {seed}, edit {edit}, k = {k}: {cells:?}: {about}"
+                );
             }
             // Undone, it is the same surface again.
             if next.unit() == current.unit() && next.bounds() == current.bounds() {

@@ -34,10 +34,11 @@ impl Change {
             return Ok(self);
         }
         let edited = Arc::new(surface.costs.surface().edit(cells.iter().copied())?);
-        self.with_costs.extend(cells.iter().map(|&(x, y, _)| Rectangle::new(x, y, 1, 1)));
+        let places: Vec<_> = cells.iter().map(|&(x, y, _)| Rectangle::new(x, y, 1, 1)).collect();
         self.change = self.change.edit_cells(cells.into_iter().map(|(x, y, cost)| (x, y, cost.is_none())));
         let map = Arc::clone(self.change.after()).into();
-        self.surface = Some(surface.after(Costs::of_parts(map, edited))?);
+        self.surface = Some(surface.after(Costs::of_parts(map, edited), &places)?);
+        self.with_costs.extend(places);
         self.after.take();
         Ok(self)
     }
