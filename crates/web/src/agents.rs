@@ -51,7 +51,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Self, JsValue> {
         let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
-        Ok(self.instead(self.map.for_disc(self.radius(radius)?, motion).map_err(raised)?))
+        self.instead(self.map.for_disc(self.radius(radius)?, motion).map_err(raised)?)
     }
 
     /// The grid of an agent that covers n × n cells. Its place is its top left cell: free where all its cells
@@ -63,7 +63,7 @@ impl Grid {
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] n: &JsValue,
     ) -> Result<Self, JsValue> {
-        Ok(self.instead(self.map.for_square(integer_32("n", n, 1)?).map_err(raised)?))
+        self.instead(self.map.for_square(integer_32("n", n, 1)?).map_err(raised)?)
     }
 }
 

@@ -43,6 +43,10 @@ pub(crate) fn told(answer: &Answer, (guarantee, rules): (Guarantee, Rules)) -> J
         object.set_path(flat(path));
     }
     object.set_distance(answer.distance(guarantee));
+    if let (Guarantee::Cheapest(_), Some(path)) = (guarantee, answer.path()) {
+        object.set_cost(path.cost());
+        object.set_length(path.length());
+    }
     object.set_lower_bound(answer.lower_bound(guarantee));
     if let Some(bound) = answer.any_angle_lower_bound(guarantee, rules) {
         object.set_any_angle_lower_bound(bound);

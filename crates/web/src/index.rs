@@ -1,9 +1,9 @@
 //! Indexes: the preparation of an engine.
 
-use mediant::{Change, Index as Inner, files::WorldFrame, options::Levels};
+use mediant::{Change, Guarantee, Index as Inner, files::WorldFrame, options::Levels};
 use wasm_bindgen::prelude::*;
 
-use crate::{arguments::object, errors::raised, memory, planner::Planner, space::Space};
+use crate::{arguments::object, errors::raised, grid::OfCells, memory, planner::Planner, space::Space};
 
 /// The preparation of an engine in a space: `Space.prepare`, `Space.load` and `repair` make it. It never
 /// changes; any number of planners share it.
@@ -11,6 +11,16 @@ use crate::{arguments::object, errors::raised, memory, planner::Planner, space::
 pub struct Index {
     pub(crate) inner: Inner,
     pub(crate) world: Option<WorldFrame>,
+}
+
+impl Index {
+    /// The guarantee of its paths.
+    fn promised(&self) -> Guarantee {
+        match self.inner.setup().guarantee() {
+            Guarantee::Optimal(k) if OfCells::of(self.inner.space()).is_some() => Guarantee::Cheapest(k),
+            guarantee => guarantee,
+        }
+    }
 }
 
 #[wasm_bindgen]
@@ -49,10 +59,11 @@ impl Index {
         self.inner.setup().to_string()
     }
 
-    /// The guarantee of its paths: `"optimal(3)"`, `"optimal(any)"`, `"at-most(3)"`, `"suboptimal"`.
+    /// The guarantee of its paths: `"optimal(3)"`, `"optimal(any)"`, `"at-most(3)"`, `"suboptimal"`; where
+    /// cells have costs `"cheapest(3)"`.
     #[wasm_bindgen(getter)]
     pub fn guarantee(&self) -> String {
-        self.inner.setup().guarantee().to_string()
+        self.promised().to_string()
     }
 
     /// Whether its paths are shortest over its k.
@@ -62,11 +73,10 @@ impl Index {
     }
 
     /// An upper bound on its paths' lengths, as a multiple of the shortest at any angle: 1.08 is 8 % longer.
-    /// Undefined where nothing is proven.
+    /// Undefined where nothing is proven, as on costs.
     #[wasm_bindgen(getter)]
     pub fn bound(&self) -> Option<f64> {
-        let setup = self.inner.setup();
-        setup.guarantee().bound(setup.rules())
+        self.promised().bound(self.inner.setup().rules())
     }
 
     /// The memory that it uses beyond the space, in bytes.

@@ -4,7 +4,7 @@ use js_sys::Reflect;
 use mediant::{
     Engine, Motion, Query,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
-    errors::absent,
+    errors::{NO_COSTS, absent},
 };
 use wasm_bindgen::prelude::*;
 
@@ -12,6 +12,7 @@ use crate::{
     arguments::Points,
     clock::Deadline,
     errors::{coded, kind, raised, wrong_type},
+    grid::COSTS,
 };
 
 /// The groups of keys that an object may have.
@@ -114,8 +115,11 @@ pub(crate) fn entries(name: &str, given: &JsValue) -> Result<Vec<(String, JsValu
 
 /// The error for a key that an object cannot have.
 pub(crate) fn unknown_key(name: &str, key: &str, known: &str) -> JsValue {
-    let why = absent(key).map_or(String::new(), |why| format!(" ({why})"));
-    let text = format!("{name}: no key '{key}' is known{why}; the keys are {known}");
+    let why = absent(key).map(|why| if why == NO_COSTS { COSTS } else { why });
+    let why = why.map_or(String::new(), |why| format!(" ({why})"));
+    let known = known.trim_end_matches(", ");
+    let known = if known.is_empty() { String::new() } else { format!("; the keys are {known}") };
+    let text = format!("{name}: no key '{key}' is known{why}{known}");
     coded(mediant::ErrorCode::Argument, &text)
 }
 

@@ -38,6 +38,8 @@ mod agents;
 mod answer;
 mod arguments;
 mod clock;
+#[cfg(feature = "full")]
+mod costs;
 mod errors;
 #[cfg(feature = "full")]
 mod exceptions;

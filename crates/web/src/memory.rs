@@ -11,6 +11,8 @@ pub(crate) const SPACE: u64 = 16;
 pub(crate) const INDEX: u64 = 32;
 /// In a planner.
 pub(crate) const PLANNER: u64 = 32;
+/// In costs of cells, and while they are read.
+pub(crate) const COSTS: u64 = 32;
 /// In a field.
 pub(crate) const FIELD: u64 = 24;
 

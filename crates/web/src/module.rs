@@ -88,6 +88,7 @@ fn info(engine: Engine) -> JsValue {
         ("placements", Some(texts(can.placements.iter().map(ToString::to_string)))),
         ("maxK", Some(can.max_k.into())),
         ("any", Some(can.any.into())),
+        ("costs", Some((cfg!(feature = "full") && can.costs).into())),
         ("title", Some(can.title.into())),
         ("how", Some(can.how.into())),
         ("guarantee", Some(can.guarantee.name().into())),

@@ -1,14 +1,14 @@
 //! Spaces: maps with rules of motion.
 
 use js_sys::Int32Array;
-use mediant::{Map, Motion, Path, Space as Inner, Vertex, files::WorldFrame};
+use mediant::{Motion, Path, Space as Inner, Vertex, files::WorldFrame};
 use wasm_bindgen::prelude::*;
 
 use crate::{
     answer,
     arguments::{path_points, point},
-    errors::{broken, raised},
-    grid::{Edit, Grid},
+    errors::broken,
+    grid::{Grid, OfCells},
     keywords::{Keywords, MOTION},
     memory,
     types::{JsChoice, JsMotion},
@@ -36,9 +36,9 @@ fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<In
 
 impl Space {
     /// A map at its place in the world, with rules of motion.
-    pub(crate) fn of(map: &Map, motion: Motion, world: Option<WorldFrame>) -> Result<Self, JsValue> {
-        memory::check("the space", memory::vertices(map), memory::SPACE)?;
-        Ok(Self { inner: map.space(motion).map_err(raised)?, world })
+    pub(crate) fn of(grid: &Grid, motion: Motion) -> Result<Self, JsValue> {
+        memory::check("the space", memory::vertices(&grid.map), memory::SPACE)?;
+        Ok(Self { inner: grid.searched(motion)?, world: grid.world })
     }
 
     /// Checks that there is room for so many bytes a vertex.
@@ -56,13 +56,14 @@ impl Grid {
     /// const space = grid.space({ k: "any" }); // any direction, between the corners of cells
     /// ```
     ///
-    /// @throws MediantError `motion` where no engine searches: k above 12, and centers at any angle.
+    /// @throws MediantError `motion` where no engine searches: k above 12, and centers at any angle; k above
+    /// 8 where cells have costs.
     pub fn space(
         &self,
         #[wasm_bindgen(unchecked_optional_param_type = "Motion")] motion: &JsValue,
     ) -> Result<Space, JsValue> {
         let motion = Keywords::read("motion", motion, MOTION)?.motion()?;
-        Space::of(&self.map, motion, self.world)
+        Space::of(self, motion)
     }
 }
 
@@ -71,7 +72,7 @@ impl Space {
     /// The map.
     #[wasm_bindgen(getter)]
     pub fn grid(&self) -> Grid {
-        Grid { map: self.inner.map().clone(), world: self.world }
+        Grid { map: self.inner.map().clone(), world: self.world, costs: OfCells::of(&self.inner) }
     }
 
     /// The rules of motion and the k, in full.
@@ -170,9 +171,7 @@ impl Space {
         #[wasm_bindgen(unchecked_param_type = "number")] height: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
     ) -> Result<Self, JsValue> {
-        let edit = Edit::read([x, y, width, height], blocked)?;
-        let map = self.inner.map().edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?;
-        Self::of(&map, self.inner.motion(), self.world)
+        Self::of(&self.grid().edit(x, y, width, height, blocked)?, self.inner.motion())
     }
 
     /// A second handle to the same space, for arguments of calls.

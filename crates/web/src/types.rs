@@ -123,6 +123,20 @@ export interface TileOptions {
   readonly blocked?: string;
 }
 
+/** Costs of cells, row by row: an array of numbers, or a typed one. */
+export type Costs = ArrayLike<number>;
+
+/** Costs of a new grid; the light module has none. */
+export interface CostOptions {
+  /** The cost of a unit of length in each cell, row by row: see `Grid.withCosts`. */
+  readonly costs?: Costs;
+  /** The width and the height of a cell; 1 and 1 by default. Only costs depend on it. */
+  readonly cellSize?: readonly [x: number, y: number];
+}
+
+/** The options of `Grid.fromRows`. */
+export interface RowOptions extends TileOptions, CostOptions {}
+
 /** The options of reading a map from a file. The characters are those of a MovingAI map. */
 export interface MapOptions extends TileOptions {
   /** A pixel that is darker than this part of white is blocked, 0 to 1. One half by default. */
@@ -164,8 +178,15 @@ export interface Answer {
   readonly status: Status;
   /** The waypoints x, y, … of a found or nearest answer. */
   readonly path?: Int32Array;
-  /** Its length in cells, as `Planner.distance` measures it; `Infinity` if unreachable, `NaN` if stopped. */
+  /**
+   * Its length in cells, as `Planner.distance` measures it; where cells have costs its cost. `Infinity` if
+   * unreachable, `NaN` if stopped.
+   */
   readonly distance: number;
+  /** The cost of `path`, if cells have costs. */
+  readonly cost?: number;
+  /** The length of `path` in cells, whatever their size, if cells have costs. */
+  readonly length?: number;
   /**
    * No path of the engine's kind to the goal that was asked for is shorter, in cells: no path over N(k), or at
    * k "any" and by an engine of any-angle paths no path at all. Of a found path its own length where the
@@ -214,6 +235,8 @@ export interface EngineInfo {
   readonly maxK: number;
   /** Whether it takes k "any". */
   readonly any: boolean;
+  /** Whether it takes costs of cells: then k is 8 at most. */
+  readonly costs: boolean;
   /** The guarantee of its paths: `"optimal(k)"`, `"suboptimal"`, …. */
   readonly guarantee: string;
   /** Its paper: first author and year. */
@@ -244,6 +267,10 @@ extern "C" {
     pub(crate) fn set_path(this: &JsAnswer, path: Int32Array);
     #[wasm_bindgen(method, setter)]
     pub(crate) fn set_distance(this: &JsAnswer, distance: f64);
+    #[wasm_bindgen(method, setter)]
+    pub(crate) fn set_cost(this: &JsAnswer, cost: f64);
+    #[wasm_bindgen(method, setter)]
+    pub(crate) fn set_length(this: &JsAnswer, length: f64);
     #[wasm_bindgen(method, setter, js_name = lowerBound)]
     pub(crate) fn set_lower_bound(this: &JsAnswer, lower_bound: f64);
     #[wasm_bindgen(method, setter, js_name = anyAngleLowerBound)]

@@ -155,7 +155,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_optional_param_type = "World")] world: &JsValue,
     ) -> Result<Self, JsValue> {
         if world.is_undefined() || world.is_null() {
-            return Ok(Self::new(self.map.clone()));
+            return Ok(Self { world: None, ..self.share() });
         }
         let World { frame } = object("world", "World", world)?;
         let (width, height) = (self.map.width(), self.map.height());
@@ -167,6 +167,6 @@ impl Grid {
             );
             return Err(argument("world", &text));
         }
-        Ok(Self { map: self.map.clone(), world: Some(frame) })
+        Ok(Self { world: Some(frame), ..self.share() })
     }
 }

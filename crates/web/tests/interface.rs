@@ -58,7 +58,7 @@ fn grids() {
     let grid = grid();
     assert_eq!((get(&grid, "width").as_f64(), get(&grid, "height").as_f64()), (Some(8.0), Some(3.0)));
     let cells: Uint8Array = ok(&grid, "cells", &[]).unchecked_into();
-    let same = Grid::from_cells(&8.into(), &3.into(), &cells).map(JsValue::from).expect("a grid");
+    let same = Grid::from_cells(&8.into(), &3.into(), &cells, &NONE).map(JsValue::from).expect("a grid");
     assert_eq!(get(&grid, "id"), get(&same, "id"));
     let edited = ok(&grid, "edit", &[3.into(), 0.into(), 1.into(), 1.into(), bytes(&[0])]);
     assert_eq!(ok(&edited, "isBlocked", &[3.into(), 0.into()]), JsValue::FALSE);

@@ -74,11 +74,12 @@ fn mistakes_have_names_and_codes() {
     );
 }
 
-/// Features that are absent are named where people ask for them.
+/// Costs in place of cells, and features that are absent, are named where people ask for them.
 #[test]
 fn costs_of_cells() {
-    let wrong =
-        |cells: JsValue| Grid::from_cells(&2.into(), &2.into(), &cells).err().map(|error| text(&error));
+    let wrong = |cells: JsValue| {
+        Grid::from_cells(&2.into(), &2.into(), &cells, &JsValue::UNDEFINED).err().map(|error| text(&error))
+    };
     let costs = wrong(Uint8Array::from(&[0, 1, 5, 1][..]).into()).expect("a cost is an error");
     assert!(
         costs.starts_with(
@@ -86,7 +87,7 @@ fn costs_of_cells() {
         )
     );
     assert!(
-        costs.contains("costs of cells are not supported; make cells, for instance Uint8Array.from(costs")
+        costs.contains("grid.withCosts(costs) has them; or make cells, for instance Uint8Array.from(costs")
     );
     let clamped = js_sys::Uint8ClampedArray::from(&[0, 0, 255, 0][..]);
     assert!(wrong(clamped.into()).expect("255 is an error").contains("found 255 as item 2"));
@@ -100,7 +101,7 @@ fn costs_of_cells() {
             error.starts_with("TypeError : blocked: expected a Uint8Array, found another type"),
             "{error}"
         );
-        assert!(error.contains("costs of cells are not supported"), "{error}");
+        assert!(error.contains("grid.withCosts(costs)"), "{error}");
     }
     assert_eq!(wrong(Uint8Array::from(&[0, 1, 1, 0][..]).into()), None);
     let edit =
@@ -122,7 +123,9 @@ fn costs_of_cells() {
 fn sizes_that_no_map_has() {
     let made = |width: f64, height: f64, cells: u32| {
         let cells = Uint8Array::new_with_length(cells);
-        let error = Grid::from_cells(&width.into(), &height.into(), &cells).err().expect("no grid");
+        let error = Grid::from_cells(&width.into(), &height.into(), &cells, &JsValue::UNDEFINED)
+            .err()
+            .expect("no grid");
         text(&error).split(':').next().unwrap_or_default().to_owned()
     };
     // 65,536 × 65,536 is 0 in 32 bits.
@@ -148,7 +151,9 @@ fn sizes_that_no_map_has() {
         return;
     }
     let cells = Uint8Array::new_with_length(16_000 * 16_000);
-    let large = JsValue::from(Grid::from_cells(&16_000.into(), &16_000.into(), &cells).expect("a grid"));
+    let large = JsValue::from(
+        Grid::from_cells(&16_000.into(), &16_000.into(), &cells, &JsValue::UNDEFINED).expect("a grid"),
+    );
     assert_eq!(thrown(&large, "space", &[]), "MediantError memory");
     assert_eq!(thrown(&large, "path", &[json("[0, 0]"), json("[1, 0]")]), "MediantError memory");
 }
@@ -171,7 +176,7 @@ fn objects_that_were_freed_and_arrays_that_were_detached() {
         "const a = new Uint8Array(24); structuredClone(a.buffer, { transfer: [a.buffer] }); return a",
     );
     let detached = detached.call0(&JsValue::UNDEFINED).expect("an array");
-    assert!(Grid::from_cells(&8.into(), &3.into(), &detached).is_err());
+    assert!(Grid::from_cells(&8.into(), &3.into(), &detached, &JsValue::UNDEFINED).is_err());
 }
 
 /// An object whose getter throws, and one that calls back into what reads it.

@@ -3,6 +3,7 @@
 mod buckets;
 mod directions;
 pub(crate) mod search;
+#[cfg(not(target_family = "wasm"))]
 mod threads;
 
 use std::{num::NonZeroUsize, sync::Arc};

@@ -4,7 +4,9 @@ use std::num::NonZeroUsize;
 
 use mediant_grid::{Interrupt, Interrupted, Rules};
 
-use super::{buckets::Buckets, threads};
+use super::buckets::Buckets;
+#[cfg(not(target_family = "wasm"))]
+use super::threads;
 use crate::{
     graph::CostGraph,
     scan::{OfCosts, Scanning, Visit, by_kind},
@@ -80,14 +82,10 @@ fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Inter
 impl Search<'_> {
     /// Lowers the costs of all states to those of the cheapest paths.
     pub(crate) fn run(self, costs: Vec<u64>, moves: impl Scanning) -> Result<Labels, Interrupted> {
-        let Self { limit, with_sources, threads, interrupt, .. } = self;
+        let Self { limit, with_sources, interrupt, .. } = self;
         let sources = with_sources.then(|| vec![u32::MAX; costs.len()]);
         let mut labels = Labels { costs, sources, queue_bytes: 0 };
-        labels.queue_bytes = if threads.get() > 1 && !with_sources {
-            threads::run(moves, &mut labels.costs, self)?
-        } else {
-            self.run_alone(&mut labels, moves)?
-        };
+        labels.queue_bytes = self.run_together(&mut labels, moves)?;
         if limit != NONE {
             for piece in labels.costs.chunks_mut(1 << 18) {
                 interrupt.check("filling memory")?;
@@ -95,6 +93,22 @@ impl Search<'_> {
             }
         }
         Ok(labels)
+    }
+
+    /// Returns the memory of the queues, in bytes.
+    #[cfg(not(target_family = "wasm"))]
+    fn run_together(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+        if self.threads.get() > 1 && !self.with_sources {
+            return threads::run(moves, &mut labels.costs, self);
+        }
+        self.run_alone(labels, moves)
+    }
+
+    /// WebAssembly has no threads, and loads what it does not need.
+    #[cfg(target_family = "wasm")]
+    fn run_together(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+        debug_assert!(self.threads.get() > 0);
+        self.run_alone(labels, moves)
     }
 
     /// Returns the memory of the queue, in bytes.

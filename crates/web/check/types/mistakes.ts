@@ -16,5 +16,7 @@ grid
   .planner()
   .distances([0, 0], [[1, 1]]); // wrong
 grid.width = 3; // wrong
+new Grid(2, 2, new Uint8Array(4), { cost: [1, 1, 1, 1] }); // wrong
+grid.withCosts("1111"); // wrong
 
 export { motion, path };

@@ -3,6 +3,7 @@
 import init, {
   type Answer,
   bound,
+  type Costs,
   checkSetup,
   type EngineInfo,
   type Exceptions,
@@ -58,6 +59,15 @@ const rows = Grid.fromRows(["..", ".#"], { free: ".", blocked: "#" });
 const grid = new Grid(2, 2, new Uint8Array(4)).edit(0, 0, 1, 1, Uint8Array.of(1));
 const clearance: Float64Array = grid.clearance();
 const smaller: Grid = grid.forDisc(1.5, any).forSquare(2);
+const costs: Costs = Float32Array.of(1, 2, 4, 8);
+const land: Grid = new Grid(2, 2, new Uint8Array(4), { costs, cellSize: [30, 20] })
+  .withCosts([1, 2, 3, 4], [1, 1])
+  .editCosts([[0, 0]], [null])
+  .editCosts([0, 0], 2);
+const each: Float64Array | undefined = land.costs();
+const [wide, high]: readonly [number, number] = land.cellSize ?? [1, 1];
+const price: number | undefined = land.space({ k: 3 }).editCosts([1, 1], 5).cost(new Int32Array(4));
+const { cost, length }: Answer = land.find([0, 0], [1, 1]);
 const world: World = new World(2, 2, 0.05, [1, 2]);
 const placed: Grid = grid
   .withWorld(world)
@@ -187,17 +197,22 @@ export {
   arrays,
   because,
   clearance,
+  cost,
+  each,
   engine,
   factor,
   facts,
   files,
   groups,
   height,
+  high,
   instances,
   last,
+  length,
   meters,
   next,
   place,
+  price,
   seen,
   sizes,
   smaller,
@@ -205,5 +220,6 @@ export {
   where,
   whole,
   why,
+  wide,
   width,
 };

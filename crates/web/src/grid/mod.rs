@@ -1,17 +1,28 @@
 //! Maps.
 
+#[cfg(not(feature = "full"))]
+mod absent;
+#[cfg(feature = "full")]
+mod costs;
 mod queries;
 #[cfg(feature = "full")]
 mod reading;
 mod tiles;
 
 use js_sys::{Array, ArrayBuffer, Uint8Array, Uint8ClampedArray};
-use mediant::{Map, Rectangle, errors::NO_COSTS, files::WorldFrame, grid::Grid as Bits};
+use mediant::{Map, Motion, Rectangle, Space, files::WorldFrame, grid::Grid as Bits};
 use wasm_bindgen::{JsCast, prelude::*};
 
+#[cfg(not(feature = "full"))]
+use self::absent as costs;
+#[cfg(feature = "full")]
+pub(crate) use self::costs::cost_edits;
+pub(crate) use self::costs::{COSTS, OfCells};
+use self::costs::{CostOptions, KEYS};
 use crate::{
     arguments::{Points, bytes, flag, integer, integer_32, room, text},
     errors::{argument, raised, wrong_type},
+    keywords::{entries, unknown_key},
 };
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is in column x from the left and row y from
@@ -27,49 +38,72 @@ use crate::{
 pub struct Grid {
     pub(crate) map: Map,
     pub(crate) world: Option<WorldFrame>,
+    /// The costs of its cells, if they have any.
+    pub(crate) costs: Option<OfCells>,
 }
 
 impl Grid {
     pub(crate) fn new(map: Map) -> Self {
-        Self { map, world: None }
+        Self { map, world: None, costs: None }
     }
 
-    /// Another map at the same place in the world.
-    pub(crate) fn instead(&self, map: Map) -> Self {
-        Self { map, world: self.world }
+    /// Another map at the same place in the world, with the same costs: it frees no cell that has none.
+    pub(crate) fn instead(&self, map: Map) -> Result<Self, JsValue> {
+        let costs = self.costs.as_ref().map(|costs| costs.on(&map)).transpose()?;
+        Ok(Self { map, world: self.world, costs })
+    }
+
+    /// The map with rules of motion.
+    pub(crate) fn searched(&self, motion: Motion) -> Result<Space, JsValue> {
+        match &self.costs {
+            Some(costs) => costs.space(motion),
+            None => self.map.space(motion),
+        }
+        .map_err(raised)
     }
 }
 
 #[wasm_bindgen]
 impl Grid {
-    /// The map with these cells, row by row: 0 is free, 1 is blocked.
+    /// The map with these cells, row by row: 0 is free, 1 is blocked. The options are those of `withCosts`.
+    ///
+    /// ```js
+    /// new Grid(3, 1, new Uint8Array(3), { costs: [1, 5, 1] });
+    /// ```
     ///
     /// @throws MediantError `map-size` for a side of 0 or above 32,768, `argument` for another number of
-    /// cells, and for a cell that is neither 0 nor 1: there are no costs of cells.
+    /// cells, and for a cell that is neither 0 nor 1; `cost` as `withCosts`.
     #[wasm_bindgen(constructor)]
     pub fn from_cells(
         #[wasm_bindgen(unchecked_param_type = "number")] width: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] height: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "CostOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
+        let mut of_costs = CostOptions::default();
+        for (key, value) in entries("options", options)? {
+            if !of_costs.take(&key, &value) {
+                return Err(unknown_key("options", &key, KEYS));
+            }
+        }
         let (width, height) = (integer("width", width, 0)?, integer("height", height, 0)?);
         Bits::check_size(width, height).map_err(raised)?;
         let cells = cells_of(blocked, (SIDES, width * height))?;
         let (width, height) = (width as u32, height as u32);
         let map = Map::from_fn(width, height, |x, y| cells[y as usize * width as usize + x as usize] != 0);
-        Ok(Self::new(map.map_err(raised)?))
+        of_costs.on(Self::new(map.map_err(raised)?))
     }
 
     /// The map with these rows from top to bottom, all of the same length: `.`, `G` and `S` are free cells,
     /// `#`, `@`, `O`, `T` and `W` blocked ones, small letters as capitals. The options `free` and `blocked`
-    /// name other characters.
+    /// name other characters, `costs` and `cellSize` are those of `withCosts`.
     ///
     /// @throws MediantError `map-tile` for another character, `map-ragged` for rows of different lengths,
     /// `map-size` for no rows or too long ones.
     #[wasm_bindgen(js_name = fromRows)]
     pub fn from_rows(
         #[wasm_bindgen(unchecked_param_type = "readonly string[]")] rows: &JsValue,
-        #[wasm_bindgen(unchecked_optional_param_type = "TileOptions")] options: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "RowOptions")] options: &JsValue,
     ) -> Result<Self, JsValue> {
         let expected = "an array of texts";
         let Some(array) = rows.dyn_ref::<Array>() else { return Err(wrong_type("rows", expected, rows)) };
@@ -77,7 +111,8 @@ impl Grid {
         for index in 0..array.length() {
             rows.push(text("rows", expected, &js_sys::Reflect::get_u32(array, index)?)?);
         }
-        Ok(Self::new(Map::from_rows_with(rows, &tiles::tile_options(options)?).map_err(raised)?))
+        let (tiles, of_costs) = tiles::row_options(options)?;
+        of_costs.on(Self::new(Map::from_rows_with(rows, &tiles).map_err(raised)?))
     }
 
     /// The number of columns.
@@ -92,10 +127,10 @@ impl Grid {
         self.map.height()
     }
 
-    /// The identity of the map: the same for all maps with the same cells.
+    /// The identity of the map: the same for all maps with the same cells, and costs.
     #[wasm_bindgen(getter)]
     pub fn id(&self) -> String {
-        self.map.id().to_string()
+        self.costs.as_ref().map_or_else(|| self.map.id().to_string(), OfCells::id)
     }
 
     /// The cells, row by row; 1 is blocked.
@@ -127,7 +162,7 @@ impl Grid {
     /// of the rectangle beyond the map are left out. This map stays as it is.
     ///
     /// @throws MediantError `edit-outside` for a rectangle that lies outside the map as a whole, `argument`
-    /// for a cell that is neither 0 nor 1.
+    /// for a cell that is neither 0 nor 1; `cost` for a cell that is freed where cells have costs.
     pub fn edit(
         &self,
         #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
@@ -137,7 +172,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
     ) -> Result<Self, JsValue> {
         let edit = Edit::read([x, y, width, height], blocked)?;
-        Ok(self.instead(self.map.edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?))
+        self.instead(self.map.edit(edit.at, |x, y| edit.is_blocked(x, y)).map_err(raised)?)
     }
 
     /// This map with other scattered cells: whether they are blocked is one value for all, or 0 or 1 for
@@ -148,7 +183,7 @@ impl Grid {
     /// ```
     ///
     /// @throws MediantError `edit-outside` for a cell outside the map, `argument` for another number of
-    /// values, and for one that is neither 0 nor 1.
+    /// values, and for one that is neither 0 nor 1; `cost` as `edit`.
     #[wasm_bindgen(js_name = editCells)]
     pub fn edit_cells(
         &self,
@@ -163,13 +198,13 @@ impl Grid {
         let all = each.is_empty() && !cells.is_empty() && flag("blocked", blocked)?;
         let value = |index: usize| each.get(index).map_or(all, |&cell| cell != 0);
         let cells = cells.into_iter().enumerate().map(|(index, cell)| (cell, value(index)));
-        Ok(self.instead(self.map.edit_cells(cells).map_err(raised)?))
+        self.instead(self.map.edit_cells(cells).map_err(raised)?)
     }
 
     /// A second handle to the same map, for arguments of calls.
     #[wasm_bindgen(js_name = __share, skip_typescript)]
     pub fn share(&self) -> Self {
-        Self { map: self.map.clone(), world: self.world }
+        Self { map: self.map.clone(), world: self.world, costs: self.costs.clone() }
     }
 }
 
@@ -178,7 +213,7 @@ const SIDES: &str = "width × height";
 
 /// The reason why cells are 0 or 1, and the way to make them.
 fn no_costs() -> String {
-    format!("{NO_COSTS}; make cells, for instance Uint8Array.from(costs, (cost) => Number(cost > limit))")
+    format!("{COSTS}; or make cells, for instance Uint8Array.from(costs, (cost) => Number(cost > limit))")
 }
 
 /// The cells of an argument, of which there must be so many, for this reason.

@@ -1,7 +1,7 @@
 //! Paths at once.
 
 use js_sys::Int32Array;
-use mediant::{Answer, Error, ErrorCode, Guarantee, Rules, Stopped};
+use mediant::{Answer, Error, ErrorCode, Guarantee, Limit, Rules, Stopped};
 use wasm_bindgen::prelude::*;
 
 use super::Grid;
@@ -69,23 +69,39 @@ impl Grid {
         &self,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
     ) -> Result<String, JsValue> {
-        let keywords = Keywords::read("how", how, ALL)?;
-        Ok(self.map.setup(&keywords.call).map_err(call_error)?.to_string())
+        let call = Keywords::read("how", how, ALL)?.call;
+        let setup = match &self.costs {
+            Some(costs) => costs.setup(&call, call.motion().map_err(call_error)?).map_err(raised)?,
+            None => self.map.setup(&call).map_err(call_error)?,
+        };
+        Ok(setup.to_string())
     }
+}
+
+/// An answer, and what its engine guarantees under which rules.
+type Promised = (Answer, (Guarantee, Rules));
+
+/// The answer where a limit stopped what is prepared for a search.
+fn before_search(by: Limit, start: &Points, rules: Rules) -> Promised {
+    let start = start.as_slice().first().copied().unwrap_or_default();
+    (Answer::Stopped(Stopped::before_search(by, start)), (Guarantee::Suboptimal, rules))
 }
 
 impl Grid {
     /// The answer of a call, and what its engine guarantees under which rules.
-    fn answered(
-        &self,
-        start: &JsValue,
-        goal: &JsValue,
-        how: &JsValue,
-    ) -> Result<(Answer, (Guarantee, Rules)), JsValue> {
+    fn answered(&self, start: &JsValue, goal: &JsValue, how: &JsValue) -> Result<Promised, JsValue> {
         let keywords = Keywords::read("how", how, ALL)?;
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         // The time of the call begins before what it prepares.
         let query = keywords.query(&start, &goal);
+        if let Some(costs) = &self.costs {
+            let motion = keywords.motion()?;
+            return match costs.find((&keywords.call, motion), query) {
+                Ok((answer, guarantee)) => Ok((answer, (guarantee, motion.rules))),
+                Err(Error::Stopped { by, .. }) => Ok(before_search(by, &start, motion.rules)),
+                Err(error) => Err(raised(error)),
+            };
+        }
         let setup = self.map.setup(&keywords.call).map_err(call_error)?;
         if self.map.kept_planners(&setup).is_none() {
             let bytes = memory::SPACE + memory::INDEX + memory::PLANNER;
@@ -93,11 +109,7 @@ impl Grid {
         }
         let planners = match self.map.keep_planners(&setup, query.limits()) {
             Ok(planners) => planners,
-            Err(Error::Stopped { by, .. }) => {
-                let start = start.as_slice().first().copied().unwrap_or_default();
-                let answer = Answer::Stopped(Stopped::before_search(by, start));
-                return Ok((answer, (Guarantee::Suboptimal, setup.rules())));
-            }
+            Err(Error::Stopped { by, .. }) => return Ok(before_search(by, &start, setup.rules())),
             Err(error) => return Err(raised(error)),
         };
         planners.try_make_ready().map_err(raised)?;

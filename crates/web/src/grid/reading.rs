@@ -44,7 +44,7 @@ impl Grid {
         let (files, options) = (Files::read(name, file, files)?, map_options(options)?);
         let read = Map::open_in(&files.name, &options, |path| files.get(path));
         let (map, world) = read.map_err(|error| files.raised(error))?;
-        Ok(Self { map, world })
+        Ok(Self { world, ..Self::new(map) })
     }
 
     /// The width and the height that the header of a map states, without making the map: so that one that is

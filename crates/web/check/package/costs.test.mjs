@@ -1,0 +1,203 @@
+// Costs of cells, compared with Dijkstra's algorithm over moves that are spelled out here.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { load } from "../truth.mjs";
+
+const mediant = await load();
+const { Grid } = mediant;
+
+/** @typedef {[number, number]} Point */
+
+/** Numbers from a seed. @param {number} seed */
+function randomFrom(seed) {
+  let state = seed;
+  return (/** @type {number} */ below) => {
+    state = (state * 1_103_515_245 + 12_345) % 2_147_483_648;
+    return Math.floor((state / 2_147_483_648) * below);
+  };
+}
+
+/** The cost of a straight move between centers, by samples along it; infinite through walls. Moves of N(4)
+ *  only, whose shares of cells are quarters. @param {(x: number, y: number) => number} cost
+ *  @param {Point} from @param {Point} by @param {[number, number]} size */
+function moveCost(cost, [x, y], [dx, dy], [wide, high]) {
+  if (dx !== 0 && dy !== 0 && Math.abs(dx) === Math.abs(dy)) {
+    if (!Number.isFinite(cost(x + dx, y)) || !Number.isFinite(cost(x, y + dy))) return Infinity;
+  }
+  const pieces = 8;
+  let sum = 0;
+  for (let i = 0; i < pieces; i += 1) {
+    const t = (i + 0.5) / pieces;
+    sum += cost(Math.floor(x + 0.5 + t * dx), Math.floor(y + 0.5 + t * dy));
+  }
+  return (Math.hypot(dx * wide, dy * high) * sum) / pieces;
+}
+
+/** The least costs from a cell to all others. @param {number} width @param {number} height @param {number[]}
+ *  costs @param {Int32Array} moves @param {Point} start @param {[number, number]} size */
+function leastCosts(width, height, costs, moves, start, size) {
+  const cost = (/** @type {number} */ x, /** @type {number} */ y) =>
+    x < 0 || y < 0 || x >= width || y >= height ? Infinity : costs[y * width + x];
+  const best = new Array(width * height).fill(Infinity);
+  best[start[1] * width + start[0]] = 0;
+  for (let changed = true; changed; ) {
+    changed = false;
+    for (let at = 0; at < best.length; at += 1) {
+      if (best[at] === Infinity) continue;
+      const from = /** @type {Point} */ ([at % width, Math.floor(at / width)]);
+      for (let i = 0; i < moves.length; i += 2) {
+        const by = /** @type {Point} */ ([moves[i], moves[i + 1]]);
+        const to = best[at] + moveCost(cost, from, by, size);
+        const place = (from[1] + by[1]) * width + from[0] + by[0];
+        if (to < best[place] - 1e-9) [best[place], changed] = [to, true];
+      }
+    }
+  }
+  return best;
+}
+
+test("queries, fields, tables and steps agree with sums that are spelled out", () => {
+  for (let seed = 1; seed <= 6; seed += 1) {
+    const random = randomFrom(seed);
+    const [width, height] = [6 + random(4), 5 + random(4)];
+    const walls = Uint8Array.from({ length: width * height }, () => Number(random(10) < 2));
+    walls[0] = 0;
+    const costs = Array.from(walls, (wall) => (wall ? Infinity : 1 + random(8)));
+    const size = /** @type {[number, number]} */ (seed % 2 ? [1, 1] : [3, 2]);
+    const given = costs.map((cost) => (cost === Infinity ? 0 : cost));
+    const grid = new Grid(width, height, walls, { costs: given, cellSize: size });
+    assert.deepEqual([[...grid.costs()], grid.cellSize], [costs, size]);
+    for (const k of [2, 3, 4]) {
+      const what = `seed ${seed}, k = ${k}`;
+      const expected = leastCosts(width, height, costs, mediant.moves(k), [0, 0], size);
+      const space = grid.space({ k });
+      const field = space.field([0, 0]);
+      const planner = space.prepare().planner();
+      for (let at = 0; at < expected.length; at += 1) {
+        if (walls[at]) continue;
+        const goal = /** @type {Point} */ ([at % width, Math.floor(at / width)]);
+        const found = grid.find([0, 0], goal, { k });
+        const near = (/** @type {number} */ value) =>
+          assert.ok(value === expected[at] || Math.abs(value - expected[at]) < 1e-6, `${what}: ${value}`);
+        near(found.distance);
+        near(field.get(goal));
+        near(planner.distance([0, 0], goal));
+        planner.begin([0, 0], goal);
+        let stepped = planner.step(1);
+        while (!stepped) stepped = planner.step(1);
+        assert.deepEqual(stepped, found, what);
+        if (found.status !== "found") continue;
+        near(found.cost);
+        near(found.lowerBound);
+        near(space.cost(found.path));
+        assert.equal(found.anyAngleLowerBound, undefined);
+        const { path } = found;
+        let length = 0;
+        for (let i = 2; i < path.length; i += 2) {
+          length += Math.hypot(path[i] - path[i - 2], path[i + 1] - path[i - 1]);
+        }
+        assert.ok(Math.abs(length - found.length) < 1e-6, what);
+      }
+    }
+  }
+});
+
+test("a road is worth a way around, and how much k is worth", () => {
+  const grid = Grid.fromRows(["....", ".##.", "...."], {
+    costs: Float32Array.of(5, 5, 5, 5, 1, 1, 1, 1, 1, 1, 1, 1),
+  });
+  const answer = grid.find([0, 0], [3, 0], { k: 3 });
+  assert.deepEqual([answer.cost, answer.length, answer.distance], [11, 7, 11]);
+  const plain = grid.withCosts().find([0, 0], [3, 0], { k: 3 });
+  assert.deepEqual([plain.cost, plain.length, plain.distance], [undefined, undefined, 3]);
+  assert.equal(grid.setup({ k: 5 }).split(":")[0], "astar");
+  const index = grid.space({ k: 5 }).prepare();
+  assert.deepEqual([index.guarantee, index.optimal, index.bound], ["cheapest(5)", true, undefined]);
+});
+
+test("edits: costs, walls, and indexes that follow", () => {
+  const grid = new Grid(9, 3, new Uint8Array(27), { costs: new Array(27).fill(1) });
+  const space = grid.space({ k: 3 });
+  const index = space.prepare("astar");
+  const changed = space.editCosts(
+    [
+      [4, 1],
+      [4, 0],
+    ],
+    [5, null],
+  );
+  const repaired = index.repair(changed);
+  const planner = index.planner();
+  planner.follow(repaired);
+  assert.deepEqual([...planner.find([0, 1], [8, 1]).path], [0, 1, 3, 1, 4, 2, 5, 1, 8, 1]);
+  assert.equal(changed.grid.costs()[4], Infinity);
+  const walled = grid.edit(4, 0, 1, 3, Uint8Array.of(1, 1, 1));
+  assert.equal(walled.find([0, 1], [8, 1]).status, "unreachable");
+  assert.throws(() => walled.edit(4, 0, 1, 1, Uint8Array.of(0)), { code: "cost", message: /editCosts/ });
+  assert.throws(() => walled.editCells([[4, 1]], false), { code: "cost" });
+  const opened = walled.editCosts([4, 1], 2);
+  assert.equal(opened.find([0, 1], [8, 1]).cost, 9);
+  assert.notEqual(opened.id, grid.id);
+  assert.equal(opened.editCosts([4, 1], Float64Array.of(2)).id, opened.id);
+  // An agent of a size keeps the costs where it fits.
+  assert.equal(opened.forSquare(1).find([0, 1], [8, 1]).cost, 9);
+});
+
+test("mistakes have a code and a cure", () => {
+  const cells = new Uint8Array(4);
+  for (const [costs, code, message] of [
+    [[1, 1, 1], "cost", /3 costs for 4 cells/],
+    [[1, 1, 1, 0], "cost", /cell \(1, 1\) is 0: it must be a positive number/],
+    [[1, -1, 1, 1], "cost", /cell \(1, 0\)/],
+    [[1, Number.NaN, 1, 1], "cost", /NaN/],
+    [[1, Infinity, 1, 1], "cost", /blocked/],
+    [[1, 1e-9, 1, 0.3], "cost", /65,536/],
+  ]) {
+    assert.throws(() => new Grid(2, 2, cells, { costs }), { code, message });
+    assert.throws(() => new Grid(2, 2, cells).withCosts(Float64Array.from(costs)), { code, message });
+  }
+  for (const costs of ["1111", 3, {}, [1, 1, 1, "1"], [1, 1, 1, null], new DataView(new ArrayBuffer(4))]) {
+    assert.throws(() => new Grid(2, 2, cells).withCosts(costs), TypeError);
+  }
+  assert.throws(() => new Grid(2, 2, cells).withCosts(new BigInt64Array(4)), TypeError);
+  const costs = [1, 1, 1, 2];
+  assert.throws(() => new Grid(2, 2, cells, { costs, cellSize: [0, 1] }), { code: "number" });
+  assert.throws(() => new Grid(2, 2, cells, { costs, cellSize: 3 }), TypeError);
+  assert.throws(() => new Grid(2, 2, cells, { cellSize: [1, 1] }), { code: "argument" });
+  assert.throws(() => new Grid(2, 2, cells, { cost: costs }), {
+    code: "argument",
+    message: /costs, cellSize/,
+  });
+  const grid = new Grid(2, 2, cells, { costs });
+  assert.throws(() => grid.path([0, 0], [1, 1], { costs }), { code: "argument", message: /withCosts/ });
+  assert.throws(() => grid.space({ k: 9 }), { code: "motion", message: /from 2 to 8/ });
+  assert.throws(() => grid.space({ k: "any" }), { code: "motion" });
+  assert.throws(() => grid.find([0, 0], [1, 1], { engine: "jps" }), {
+    code: "engine-without",
+    message: /astar/,
+  });
+  assert.throws(() => grid.find([0, 0], [1, 1], { smooth: "taut" }), { code: "engine-without" });
+  assert.throws(() => grid.editCosts([5, 5], 1), { code: "edit-outside" });
+  assert.throws(() => grid.editCosts([0, 0], [1, 2]), { code: "argument" });
+  assert.throws(() => new Grid(2, 2, cells).editCosts([0, 0], 1), { code: "cost", message: /withCosts/ });
+  assert.throws(() => new Grid(2, 2, cells).space().editCosts([0, 0], 1), { code: "cost" });
+  assert.throws(() => new Grid(2, 2, Uint8Array.of(0, 0, 0, 7)), { code: "argument", message: /withCosts/ });
+});
+
+test("a limit is a cost, and a clock that asks the same grid again stops nothing", () => {
+  const grid = new Grid(20, 20, new Uint8Array(400), { costs: new Array(400).fill(3) });
+  const stopped = grid.find([0, 0], [19, 0], { maxCost: 50 });
+  assert.deepEqual([stopped.status, stopped.stoppedBy], ["stopped", "cost"]);
+  assert.equal(grid.find([0, 0], [19, 0], { maxCost: 57 }).cost, 57);
+  assert.equal(grid.find([0, 0], [19, 0], { timeout: 1000, k: 4 }).cost, 57);
+});
+
+test("the light module says that it has none", async () => {
+  const light = await load("light");
+  const cells = new Uint8Array(4);
+  const message = /light module has no costs of cells/;
+  assert.throws(() => new light.Grid(2, 2, cells, { costs: [1, 1, 1, 1] }), { code: "argument", message });
+  assert.throws(() => light.Grid.fromRows(["."], { costs: [1] }), { code: "argument", message });
+  assert.equal(light.Grid.prototype.withCosts, undefined);
+});
