@@ -77,6 +77,14 @@ const PICTURES = [
     },
   },
   {
+    name: "land",
+    run: async (page) => {
+      await setLanes(page, { k: 4 });
+      await generate(page, "landscape", 128);
+      await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.ladder.size === 7);
+    },
+  },
+  {
     name: "distances",
     run: async (page) => {
       await generate(page, "islands", 256, 4);

@@ -19,6 +19,7 @@ const DIGESTS = {
   rooms: ["fYZWsQ", "hK1SsQ"],
   cave: ["eosIhw", "n3R-9w"],
   islands: ["MsxWHg", "ugxPdQ"],
+  landscape: ["Wnj1Vw", "8-n84g"],
   warehouse: ["RJ14xg", "gI8tCQ"],
   maze: ["qPYaDA", "eI5gWw"],
   "narrow-maze": ["hixqUw", "iGGW9Q"],
@@ -51,6 +52,8 @@ test("a seed gives the same map everywhere", () => {
     found[name] = [64, 333].map((side) => digestOf(generate(name, side, 1).cells));
   }
   assert.deepEqual(found, DIGESTS);
+  const land = [64, 333].map((side) => digestOf(generate("landscape", side, 1).costs));
+  assert.deepEqual(land, ["TuSBxQ", "Z98guQ"]);
 });
 
 test(`maps of any side and seed are well connected and have ends far apart (SEED=${SEED})`, () => {
@@ -65,6 +68,8 @@ test(`maps of any side and seed are well connected and have ends far apart (SEED
         map.cells.every((cell) => cell === 0 || cell === 1),
         what,
       );
+      const costs = map.costs && [...new Set(map.costs)].sort();
+      assert.deepEqual(costs, name === "landscape" ? [1, 2, 4, 8] : null, what);
       const free = map.cells.filter((cell) => cell === 0).length;
       assert.ok(free > side * side * 0.25, `${what}: ${free} free cells`);
       for (const [x, y] of [map.start, map.goal]) assert.equal(map.cells[y * side + x], 0, what);

@@ -56,6 +56,8 @@ async function randomModel(random) {
   }
   const cells = Array.from({ length: random.pick([0, 1, 30, 400]) }, () => random.below(model.cells.length));
   model.paint(cells, random.chance(50));
+  if (random.chance(50)) model.paintLand(cells.slice(0, 200), random.pick([1, 2, 4, 8]));
+  if (random.chance(50)) model.setCosts(cells.slice(0, 9), random.pick([1, 2, 4, 8]));
   model.moveEnd("start", [random.below(model.width), random.below(model.height)]);
   model.setLanes(Array.from({ length: random.between(1, 4) }, () => randomLane(random)));
   model.set({
@@ -69,10 +71,10 @@ async function randomModel(random) {
 }
 
 function stateOf(model) {
-  const { width, height, cells, source, edited, start, goal, lanes } = model;
+  const { width, height, cells, costs, source, edited, start, goal, lanes } = model;
   const { active, overlay, nearest, radius, agents } = model;
   const shown = lanes.map((lane) => ["engine", "k", ...Object.keys(CHOICES)].map((key) => lane[key]));
-  const map = { width, height, cells: [...cells], source, edited, start, goal };
+  const map = { width, height, cells: [...cells], costs: costs && [...costs], source, edited, start, goal };
   return JSON.stringify({ ...map, shown, active, overlay, nearest, radius, agents });
 }
 

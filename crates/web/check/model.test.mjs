@@ -27,14 +27,16 @@ function empty(width, height) {
 }
 
 /** All that undo brings back. */
-function stateOf({ width, height, cells, start, goal, source, edited }) {
-  return JSON.stringify({ width, height, cells: [...cells], start, goal, source, edited });
+function stateOf({ width, height, cells, costs, start, goal, source, edited }) {
+  const land = costs && [...costs];
+  return JSON.stringify({ width, height, cells: [...cells], land, start, goal, source, edited });
 }
 
 function randomMap(random, number) {
   const map = empty(random.between(1, 9), random.between(1, 9));
   const cells = map.cells.map(() => random.below(2));
-  return { ...map, cells, source: { kind: "file", name: `map ${number}` } };
+  const costs = random.chance(50) ? map.cells.map(() => random.pick([1, 2, 8])) : null;
+  return { ...map, cells, costs, source: { kind: "file", name: `map ${number}` } };
 }
 
 /** A change of the model that must be one step of undo, or none if it changes nothing. */
@@ -43,9 +45,16 @@ function change(model, random, number) {
   const cells = () => Array.from({ length: random.below(6) }, cell);
   const point = () => [random.between(-1, model.width), random.between(-1, model.height)];
   const end = () => random.pick(["start", "goal"]);
-  switch (random.below(6)) {
+  const cost = () => random.pick([1, 1, 2, 4, 8]);
+  switch (random.below(8)) {
     case 0:
       return model.paint(cells(), random.chance(50));
+    case 6:
+      return model.setCosts(cells(), cost());
+    case 7:
+      model.beginGesture("cells");
+      model.paintLand(cells(), cost());
+      return model.endGesture();
     case 1:
       return model.moveEnd(end(), point());
     case 2:

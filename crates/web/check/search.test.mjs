@@ -66,11 +66,14 @@ test("a setup's motion and options are the package's; equal keys are of setups t
 test(`a worker's map follows the model's by rectangles (SEED=${SEED})`, () => {
   for (let round = 0; round < 200; round++) {
     const random = new Random(SEED + round);
-    let map = { width: 0, height: 0, cells: new Uint8Array(0) };
-    const model = { width: 0, height: 0, cells: map.cells };
+    /** @type {any} */
+    let map = { width: 0, height: 0, cells: new Uint8Array(0), costs: null };
+    /** @type {any} */
+    const model = { width: 0, height: 0, cells: map.cells, costs: null };
     const load = () => {
       [model.width, model.height] = [random.between(1, 9), random.between(1, 9)];
       model.cells = Uint8Array.from({ length: model.width * model.height }, () => random.below(2));
+      model.costs = random.chance(50) ? model.cells.map(() => random.between(1, 8)) : null;
     };
     load();
     const feed = new Feed(model);
@@ -87,14 +90,23 @@ test(`a worker's map follows the model's by rectangles (SEED=${SEED})`, () => {
           width: random.between(1, model.width - x),
           height: random.between(1, model.height - y),
         };
-        model.cells[random.between(y, y + rect.height - 1) * model.width + x] ^= 1;
+        const cell = random.between(y, y + rect.height - 1) * model.width + x;
+        model.cells[cell] ^= 1;
+        // Land may come and go by a stroke.
+        if (random.chance(20)) {
+          model.costs = model.costs ? null : new Uint8Array(model.cells.length).fill(1);
+          feed.note({ cells: { x: 0, y: 0, width: model.width, height: model.height } });
+        }
+        if (model.costs) model.costs[cell] = random.between(1, 8);
         feed.note({ cells: rect });
       }
       const { map: whole, patch } = feed.take();
       if (whole) map = whole;
       for (let i = 0; patch && i < patch.cells.length; i++) {
         const [column, row] = [i % patch.width, Math.floor(i / patch.width)];
-        map.cells[(patch.y + row) * map.width + patch.x + column] = patch.cells[i];
+        const cell = (patch.y + row) * map.width + patch.x + column;
+        map.cells[cell] = patch.cells[i];
+        if (map.costs) map.costs[cell] = patch.costs[i];
       }
       assert.deepEqual(map, { ...model }, `SEED=${SEED} round ${round} step ${step}`);
       assert.notEqual(map.cells, model.cells, "a copy: the buffer is handed over");

@@ -58,6 +58,10 @@ export interface Model extends EventTarget {
   readonly height: number;
   /** Row by row, 1 = blocked. Changed in place. */
   readonly cells: Uint8Array;
+  /** The cost of a unit of length on each cell: 1, 2, 4 or 8; null where all cost 1. Changed in place. */
+  readonly costs: Uint8Array | null;
+  /** The costs of the map as it was loaded. */
+  readonly firstCosts: Uint8Array | null;
   /** Grows with every change of a cell, and with every map. */
   readonly version: number;
   readonly source: MapSource;
@@ -80,6 +84,7 @@ export interface Model extends EventTarget {
     width: number;
     height: number;
     cells: Uint8Array;
+    costs?: Uint8Array | null;
     source: MapSource;
     start?: Point;
     goal?: Point;
@@ -90,6 +95,10 @@ export interface Model extends EventTarget {
   endGesture(): void;
   /** Sets these cells (numbers y · width + x). */
   paint(cells: Iterable<number>, blocked: boolean): void;
+  /** Makes these cells free land on which a unit of length costs so much. */
+  paintLand(cells: Iterable<number>, cost: number): void;
+  /** Sets what a unit of length costs on these cells, walls or not. */
+  setCosts(cells: Iterable<number>, cost: number): void;
   moveEnd(end: "start" | "goal", to: Point): void;
   undo(): void;
   redo(): void;
@@ -109,7 +118,10 @@ export interface LaneAnswer {
   status: "found" | "unreachable" | "nearest" | "invalid";
   /** Waypoints x, y, x, y, … in vertices of the lane's placement; empty if there is none. */
   path: Int32Array;
+  /** In cells. */
   length: number;
+  /** The cost of the path where steps cost differently; null where they do not. */
+  cost: number | null;
   expanded: number;
   generated: number;
   /** Milliseconds of one query on a warm planner, once it has settled: the first runs include the browser's
@@ -125,7 +137,8 @@ export interface LaneAnswer {
    *  `verticesPerRow` in a row. */
   steps: Uint32Array | null;
   verticesPerRow: number;
-  /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. */
+  /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. Where
+   *  steps cost differently its length is its cost, over N(k). */
   reference: { length: number; path: Int32Array; what: "any" | "k" } | null;
   /** The error of an invalid query, as a sentence, with its code. */
   error: { code: string; message: string } | null;
@@ -154,7 +167,7 @@ export interface LaneState {
 }
 
 /** search/lanes.js: follows the model; each lane has a worker of its own. Dispatches `change` with
- *  `{ lane: number }` or `{ overlay: true }` as `detail`. */
+ *  `{ lane: number }`, `{ overlay: true }` or `{ ladder: true }` as `detail`. */
 export interface Lanes extends EventTarget {
   /** Fulfilled when the engines can be asked. */
   readonly ready: Promise<void>;
@@ -188,6 +201,9 @@ export interface Lanes extends EventTarget {
     flow: Float32Array | null;
     greatest: number;
   } | null;
+  /** The cheapest path between the ends for each k, with the active lane's rules, as far as they are known.
+   *  Empty unless steps cost differently. */
+  readonly ladder: ReadonlyMap<number, { cost: number; length: number }>;
   /** The cells where the agent does not fit: 1 = too narrow, walls included; null for a point. */
   readonly tooNarrow: Uint8Array | null;
 }
@@ -218,9 +234,11 @@ export interface Player extends EventTarget {
 export type Tool = "move" | "draw" | "erase" | "fill" | "rectangle";
 
 /** stage/stage.js: the panes, one for each lane; pointer and keyboard on them. Dispatches `tool` when
- *  another tool is taken, and `say` with a sentence as `detail` about the keyboard's cell. */
+ *  another tool or brush is taken, and `say` with a sentence as `detail` about the keyboard's cell. */
 export interface Stage extends EventTarget {
   tool: Tool;
+  /** The matter that the tools draw: 0 for walls, else land by what a step on it costs. */
+  brush: number;
   /** The CSS pixels in the window of a point of the map, which is in cells. */
   place(lane: number, x: number, y: number): { x: number; y: number };
   fit(): void;

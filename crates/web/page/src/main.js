@@ -11,6 +11,7 @@ import { startHelp } from "./panels/help.js";
 import { drawIcons } from "./panels/icons.js";
 import { startK } from "./panels/k.js";
 import { startKeys } from "./panels/keys.js";
+import { startLandLegend } from "./panels/land.js";
 import { MapsMenu } from "./panels/maps-menu.js";
 import { startMenus } from "./panels/menu.js";
 import { say, sentence } from "./panels/message.js";
@@ -104,6 +105,7 @@ function startParts(model, help) {
   new RacePanel(model, lanes);
   new PlaybackBar(player);
   new ShowPanel(model);
+  startLandLegend(model);
   new AgentsPanel(model, walkers);
   new MapsMenu(model);
   new Files(model, lanes);

@@ -5,6 +5,7 @@ import { generate } from "./generate.js";
 export function work() {
   addEventListener("message", ({ data: { name, side, seed } }) => {
     const map = generate(name, side, seed);
-    postMessage(map, { transfer: [map.cells.buffer] });
+    const arrays = map.costs ? [map.cells, map.costs] : [map.cells];
+    postMessage(map, { transfer: arrays.map(({ buffer }) => buffer) });
   });
 }

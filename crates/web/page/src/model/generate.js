@@ -4,6 +4,7 @@ import { findEnds } from "./ends.js";
 import { cave } from "./generate/cave.js";
 import { city } from "./generate/city.js";
 import { islands } from "./generate/islands.js";
+import { landscape } from "./generate/landscape.js";
 import { maze } from "./generate/maze.js";
 import { noise } from "./generate/noise.js";
 import { obstacles } from "./generate/obstacles.js";
@@ -14,14 +15,18 @@ import { generators, PERCENTS, whyNotGenerated } from "./generators.js";
 
 /** @typedef {import("../../types.d.ts").Point} Point */
 
+/** Cells, and what steps on them cost if that differs.
+ * @typedef {Uint8Array | { cells: Uint8Array, costs: Uint8Array }} Made */
+
 /** The functions that make the cells, by the names of the generators.
- * @type {Record<string, (side: number, random: Random) => Uint8Array>} */
+ * @type {Record<string, (side: number, random: Random) => Made>} */
 const makers = {
   obstacles,
   city,
   rooms,
   cave,
   islands,
+  landscape,
   warehouse,
   maze: maze((side) => 3 + 2 * Math.floor(side / 256)),
   "narrow-maze": maze(() => 1),
@@ -34,9 +39,10 @@ export function generate(name, side, seed) {
   const generator = generators.find((entry) => entry.name === name);
   const why = whyNotGenerated(name, side, seed);
   if (generator === undefined || why !== "") throw new RangeError(why);
-  const cells = makers[name](side, new Random(mix(seed) ^ side));
+  const made = makers[name](side, new Random(mix(seed) ^ side));
+  const { cells, costs } = made instanceof Uint8Array ? { cells: made, costs: null } : made;
   const ends = generator.endsInCorners ? cornerEnds(side, cells) : findEnds(side, side, cells);
-  return { width: side, height: side, cells, ...ends };
+  return { width: side, height: side, cells, costs, ...ends };
 }
 
 /** The middles of the first free stretches of the diagonal from the top left and from the bottom right.

@@ -35,6 +35,12 @@ export const generators = Object.freeze([
   { name: "cave", title: "Cave", side: 256, about: "Smooth rock around chambers and passages." },
   { name: "islands", title: "Islands", side: 512, about: "The sea between coast lines." },
   {
+    name: "landscape",
+    title: "Landscape",
+    side: 128,
+    about: "Roads, grass, forest, swamp and lakes: steps cost 1, 2, 4 and 8.",
+  },
+  {
     name: "warehouse",
     title: "Warehouse",
     side: 128,

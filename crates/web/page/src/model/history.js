@@ -6,9 +6,11 @@ import { BitSet } from "./bits.js";
 /** @typedef {import("../../types.d.ts").Point} Point */
 /** @typedef {import("./terrain.js").PackedTerrain} PackedTerrain */
 
-/** The other side of a step: the cells that it flips, the ends of then, or the map of then.
+/** The other side of a step: the cells that it flips, what cells cost then, the ends of then, or the map of
+ * then.
  * @typedef {object} Step
  * @property {Uint32Array | BitSet | null} cells
+ * @property {Map<number, number> | null} [costs] by cell
  * @property {[Point, Point] | null} ends
  * @property {PackedTerrain | null} map */
 
@@ -17,6 +19,8 @@ const LIMIT_STEPS = 1000;
 
 /** The rough size of a step besides its cells and map, in bytes. */
 const STEP_BYTES = 200;
+/** That of an entry of a map of numbers. */
+const COST_BYTES = 40;
 
 /** The flipped cells in the form that takes less memory: a list of few, or a bit for each cell.
  * @param {BitSet} flipped */
@@ -25,10 +29,10 @@ export function compact(flipped) {
 }
 
 /** @param {Step} step */
-function bytesOf({ cells, map }) {
-  let bytes = STEP_BYTES;
+function bytesOf({ cells, costs, map }) {
+  let bytes = STEP_BYTES + COST_BYTES * (costs?.size ?? 0);
   if (cells !== null) bytes += cells instanceof BitSet ? cells.words.byteLength : cells.byteLength;
-  if (map !== null) bytes += map.blocked.words.byteLength + map.edits.words.byteLength;
+  if (map !== null) bytes += map.blocked.words.byteLength + map.edits.words.byteLength + map.land.bytes;
   return bytes;
 }
 

@@ -4,12 +4,14 @@
 //
 // with the version first and a check of all that comes before last, so that a link that was cut or changed is
 // known for it. MAP is b.NAME (bundled), g.NAME.SIDE.SEED (generated), e.WIDTH.HEIGHT (empty) or
-// f.WIDTH.HEIGHT.NAME (a file, whose blocked cells the edits hold; F if it was edited). Settings that are as
-// in a new scene are left out.
+// f.WIDTH.HEIGHT.NAME (a file, whose blocked cells the edits hold; F if it was edited). Land has a field
+// tCOST.CELLS for each cost of cells that differ from the map's, of a file from 1. Settings that are as in a
+// new scene are left out.
 
 import { BitSet } from "./bits.js";
 import { deflate, digest, fromRuns, fromText, inflate, toRuns, toText } from "./bytes.js";
-import { digestOf, settingsOf, whyNoSettings, whyNoSource } from "./scene.js";
+import { differences, merged } from "./land.js";
+import { digestOf, settingsOf, whyNoSettings, whyNoSource, withLand } from "./scene.js";
 import { CHOICES, whyNoSize } from "./setups.js";
 
 export { apply } from "./scene.js";
@@ -38,15 +40,21 @@ function checkOf(text) {
 /** The scene as the text after the `#` of a link; null if it is too large for one (`TOO_LARGE`).
  * @param {Model} model @returns {Promise<string | null>} */
 export async function encode(model) {
-  const { source, width, height } = model;
+  const { source, width, height, costs } = model;
   // Read first: the scene may change while the edits are packed.
   const text = [VERSION, mapText(model), ...settingsTexts(settingsOf(model))];
   const numbers = source.kind === "file" ? BitSet.of(model.cells).toList() : model.edits();
-  text.push(`h${digestOf(model.cells)}`);
+  const land = differences(source.kind === "file" ? null : model.firstCosts, costs);
+  text.push(`h${digestOf(merged(model.cells, costs))}`);
   if (numbers.length > 0) {
     const runs = toRuns(numbers, Math.min(MOST_BYTES, width * height * 4));
     if (runs === null) return null;
     text.push(`e${toText(await deflate(runs))}`);
+  }
+  for (const [cost, cells] of land) {
+    const runs = toRuns(cells, Math.min(MOST_BYTES, width * height * 4));
+    if (runs === null) return null;
+    text.push(`t${cost}.${toText(await deflate(runs))}`);
   }
   const link = text.join("~");
   return link.length > LONGEST ? null : `${link}~${checkOf(link)}`;
@@ -144,9 +152,9 @@ function lane(text) {
 async function sceneOf([mapField, ...fields]) {
   /** @type {Record<string, string[]>} */ const values = Object.create(null);
   for (const field of fields) (values[field.slice(0, 1)] ??= []).push(field.slice(1));
-  const unknown = Object.keys(values).find((key) => !"sglaonrwhe".includes(key) || key === "");
+  const unknown = Object.keys(values).find((key) => !"sglaonrwhet".includes(key) || key === "");
   if (unknown !== undefined) throw new Error(`It has an unknown field "${unknown}".`);
-  const twice = Object.keys(values).find((key) => key !== "l" && values[key].length > 1);
+  const twice = Object.keys(values).find((key) => !"lt".includes(key) && values[key].length > 1);
   if (twice !== undefined) throw new Error(`It has the field "${twice}" twice.`);
   /** @param {string} key @param {string} [otherwise] */
   const one = (key, otherwise = "") => values[key]?.[0] ?? otherwise;
@@ -163,26 +171,39 @@ async function sceneOf([mapField, ...fields]) {
   });
   const why = whyNoSettings(settings);
   if (why !== "") throw new Error(why);
-  return { ...(await mapOf(mapField.split("."), one("e"), one("h"))), settings };
+  return { ...(await mapOf(mapField.split("."), one("e"), values.t ?? [], one("h"))), settings };
 }
 
-/** @param {string[]} field @param {string} edits @param {string} digest
+/** @param {string[]} field @param {string} edits @param {string[]} land @param {string} digest
  * @returns {Promise<Pick<Scene, "source" | "map">>} */
-async function mapOf([kind, ...parts], edits, digest) {
+async function mapOf([kind, ...parts], edits, land, digest) {
   const lengths = { b: 1, g: 3, e: 2, f: 3, F: 3 };
   if (lengths[/** @type {keyof typeof lengths} */ (kind)] !== parts.length) throw new Error("It has no map.");
   const source = sourceOf(kind, parts);
   const why = whyNoSource(source);
   if (why !== "") throw new Error(why);
-  if (source.kind !== "file") return { source, map: { edits: (size) => numbersOf(edits, size), digest } };
+  /** @param {number} size */
+  const costs = async (size) => {
+    /** @type {Map<number, Uint32Array>} */ const byCost = new Map();
+    for (const field of land) {
+      const [cost, cells, ...rest] = field.split(".");
+      if (!/^[1248]$/.test(cost) || !cells || rest.length > 0) throw new Error(`"${field}" is no land.`);
+      byCost.set(Number(cost), await numbersOf(cells, size));
+    }
+    return byCost;
+  };
+  if (source.kind !== "file") {
+    return { source, map: { edits: (size) => numbersOf(edits, size), land: costs, digest } };
+  }
 
   const [width, height] = parts.map((part, i) => (i < 2 ? number(part) : 0));
   const whyNot = whyNoSize(width, height);
   if (whyNot !== "") throw new Error(whyNot);
   const cells = new Uint8Array(width * height);
   for (const cell of await numbersOf(edits, cells.length)) cells[cell] = 1;
-  if (digestOf(cells) !== digest) throw new Error("Its cells are damaged.");
-  return { source, map: { width, height, cells, edited: kind === "F" } };
+  const all = withLand(null, await costs(cells.length), cells.length);
+  if (digestOf(merged(cells, all)) !== digest) throw new Error("Its cells are damaged.");
+  return { source, map: { width, height, cells, costs: all, edited: kind === "F" } };
 }
 
 /** @param {string} kind @param {string[]} parts @returns {MapSource} */

@@ -5,8 +5,9 @@ import { BitSet } from "./bits.js";
 import { Box, joined } from "./change.js";
 import { findEnds } from "./ends.js";
 import { compact, History } from "./history.js";
+import { landOf } from "./land.js";
 import * as setups from "./setups.js";
-import { Terrain } from "./terrain.js";
+import { Costs, Terrain } from "./terrain.js";
 
 /** @typedef {import("../../types.d.ts").Point} Point */
 /** @typedef {import("../../types.d.ts").LaneSetup} LaneSetup */
@@ -16,8 +17,8 @@ import { Terrain } from "./terrain.js";
 /** @typedef {import("./change.js").Change} Change */
 
 /** A map to load. `edited`: its cells are not those of its source any more.
- * @typedef {{ width: number, height: number, cells: Uint8Array, source: MapSource, start?: Point,
- *   goal?: Point, edited?: boolean }} NewMap */
+ * @typedef {{ width: number, height: number, cells: Uint8Array, costs?: Uint8Array | null, source: MapSource,
+ *   start?: Point, goal?: Point, edited?: boolean }} NewMap */
 
 /** @typedef {import("../../types.d.ts").Model} Contract */
 /** @typedef {Pick<Contract, "active" | "overlay" | "nearest" | "radius" | "agents">} Settings */
@@ -36,6 +37,8 @@ export class Model extends EventTarget {
   #history = new History();
   /** The cells that were flipped since the last step of undo. */
   #stroke = new BitSet(0);
+  /** The costs before, of cells whose cost changed since the last step. @type {Map<number, number>} */
+  #landStroke = new Map();
   /** The ends at the last step of undo. @type {[Point, Point]} */ #ends = [this.#start, this.#goal];
   #depth = 0;
   /** @type {"" | "end" | "cells"} */ #gesture = "";
@@ -66,6 +69,14 @@ export class Model extends EventTarget {
   }
   get cells() {
     return this.#terrain.cells;
+  }
+  get costs() {
+    const { land } = this.#terrain;
+    return land.dear > 0 ? land.now : null;
+  }
+  /** The costs as the map was loaded. */
+  get firstCosts() {
+    return this.#terrain.land.first;
   }
   get version() {
     return this.#version;
@@ -117,15 +128,16 @@ export class Model extends EventTarget {
 
   /** Another map: one step of undo, but for the first one, which replaces a scene that nobody made.
    * @param {NewMap} map */
-  load({ width, height, cells, source, start, goal, edited = false }) {
-    const why = setups.whyNoMap(width, height, cells);
+  load({ width, height, cells, costs = null, source, start, goal, edited = false }) {
+    const why = [cells, costs ?? cells].map((array) => setups.whyNoMap(width, height, array)).join("");
     if (why !== "") throw new RangeError(why);
     this.#commit();
     if (this.#isFirst && !this.#history.canUndo) this.#history.clear();
     else this.#history.push({ cells: null, ends: this.#ends, map: this.#terrain.pack() });
     this.#isFirst = false;
     const copy = cells.map((cell) => (cell === 0 ? 0 : 1));
-    this.#setTerrain(new Terrain(width, height, copy, source, edited));
+    const land = new Costs(copy.length, costs?.slice() ?? null);
+    this.#setTerrain(new Terrain(width, height, copy, source, edited, land));
     const ends = findEnds(width, height, copy, { start, goal });
     this.#start = this.#clamped(ends.start);
     this.#goal = this.#clamped(ends.goal);
@@ -158,6 +170,33 @@ export class Model extends EventTarget {
       if (terrain.cells[cell] !== other) continue;
       terrain.flip(cell);
       this.#stroke.flip(cell);
+      box.add(cell);
+    }
+    this.#afterChange(box.rect === null ? null : { cells: box.rect });
+  }
+
+  /** Makes land of these cells: steps on it cost so much. Walls on it go.
+   * @param {Iterable<number>} cells @param {number} cost */
+  paintLand(cells, cost) {
+    const list = [...cells];
+    this.batch(() => {
+      this.paint(list, false);
+      this.setCosts(list, cost);
+    });
+  }
+
+  /** Sets what steps on these cells cost, walls or not.
+   * @param {Iterable<number>} cells @param {number} cost */
+  setCosts(cells, cost) {
+    if (landOf(cost) === undefined) return;
+    const { land, width } = this.#terrain;
+    const box = new Box(width);
+    for (const cell of cells) {
+      if (!(cell in this.#terrain.cells)) continue;
+      const before = land.at(cell);
+      if (before === cost) continue;
+      land.set(cell, cost);
+      if (!this.#landStroke.has(cell)) this.#landStroke.set(cell, before);
       box.add(cell);
     }
     this.#afterChange(box.rect === null ? null : { cells: box.rect });
@@ -273,15 +312,18 @@ export class Model extends EventTarget {
   /** Whether there are changes that are no step of undo yet. */
   get #isPending() {
     const [start, goal] = this.#ends;
-    return this.#stroke.count > 0 || !isSame(start, this.#start) || !isSame(goal, this.#goal);
+    const isPainted = this.#stroke.count > 0 || this.#landStroke.size > 0;
+    return isPainted || !isSame(start, this.#start) || !isSame(goal, this.#goal);
   }
 
   /** Makes what is pending a step of undo. */
   #commit() {
     if (!this.#isPending) return;
     const cells = this.#stroke.count > 0 ? compact(this.#stroke) : null;
-    this.#history.push({ cells, ends: this.#ends, map: null });
+    const costs = this.#landStroke.size > 0 ? this.#landStroke : null;
+    this.#history.push({ cells, costs, ends: this.#ends, map: null });
     this.#stroke.clear();
+    this.#landStroke = new Map();
     this.#ends = [this.#start, this.#goal];
   }
 
@@ -295,13 +337,18 @@ export class Model extends EventTarget {
       this.#setTerrain(Terrain.unpack(other));
       told.map = true;
     }
-    if (step.cells !== null) {
+    if (step.cells !== null || step.costs) {
       const terrain = this.#terrain;
       const box = new Box(terrain.width);
-      step.cells.forEach((/** @type {number} */ cell) => {
+      step.cells?.forEach((/** @type {number} */ cell) => {
         terrain.flip(cell);
         box.add(cell);
       });
+      for (const [cell, cost] of step.costs ?? []) {
+        step.costs?.set(cell, terrain.land.at(cell));
+        terrain.land.set(cell, cost);
+        box.add(cell);
+      }
       this.#version++;
       if (box.rect !== null) told.cells = box.rect;
     }
@@ -319,6 +366,7 @@ export class Model extends EventTarget {
   #setTerrain(terrain) {
     this.#terrain = terrain;
     this.#stroke = new BitSet(terrain.cells.length);
+    this.#landStroke = new Map();
     this.#version++;
   }
 

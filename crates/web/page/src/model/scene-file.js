@@ -1,4 +1,5 @@
-// The scene as a file: JSON that people can read, with all cells as rows of `.` (free) and `@` (blocked).
+// The scene as a file: JSON that people can read, with all cells as rows of `.` (free) and `@` (blocked); and
+// with rows of what steps on them cost, if that differs.
 
 import { settingsOf, whyNoSettings, whyNoSource } from "./scene.js";
 import { MOST_CELLS, whyNoSize } from "./setups.js";
@@ -8,43 +9,63 @@ import { MOST_CELLS, whyNoSize } from "./setups.js";
 /** @typedef {import("./scene.js").Scene} Scene */
 
 const FORMAT = "mediant scene";
-const VERSION = 1;
+/** Without land; with it. Pages of the first version would pass over what cells cost. */
+const [VERSION, WITH_LAND] = [1, 2];
 const [FREE, BLOCKED] = [".", "@"];
+/** The code of the digit 0. */
+const ZERO = 48;
 
 /** @param {Model} model @returns {Promise<Blob>} */
 export async function toFile(model) {
-  const { source, edited, width, height, cells } = model;
-  const letters = cells.map((cell) => (cell === 0 ? FREE : BLOCKED).charCodeAt(0));
+  const { source, edited, width, height, cells, costs } = model;
   const decoder = new TextDecoder();
-  const rows = Array.from({ length: height }, (_, y) => {
-    return decoder.decode(letters.subarray(y * width, (y + 1) * width));
-  });
-  const scene = { format: FORMAT, version: VERSION, map: { ...source, edited }, ...settingsOf(model) };
-  // A line for each row.
-  const text = JSON.stringify(scene, null, 1).slice(0, -2);
-  const parts = [text, ',\n "rows": [\n  "', rows.join('",\n  "'), '"\n ]\n}\n'];
+  /** A line for each row. @param {string} key @param {Uint8Array} letters */
+  const rowsOf = (key, letters) => {
+    const rows = Array.from({ length: height }, (_, y) => {
+      return decoder.decode(letters.subarray(y * width, (y + 1) * width));
+    });
+    return [`,\n "${key}": [\n  "`, rows.join('",\n  "'), '"\n ]'];
+  };
+  const version = costs === null ? VERSION : WITH_LAND;
+  const scene = { format: FORMAT, version, map: { ...source, edited }, ...settingsOf(model) };
+  const parts = [
+    JSON.stringify(scene, null, 1).slice(0, -2),
+    ...rowsOf(
+      "rows",
+      cells.map((cell) => (cell === 0 ? FREE : BLOCKED).charCodeAt(0)),
+    ),
+    ...(costs === null
+      ? []
+      : rowsOf(
+          "costs",
+          costs.map((cost) => cost + ZERO),
+        )),
+    "\n}\n",
+  ];
   return new Blob(parts, { type: "application/json" });
 }
 
 /** The scene in a file's text. Rejects with an `Error` whose message is a sentence.
  * @param {string} text @returns {Promise<Scene>} */
 export async function fromFile(text) {
-  if (text.length > 3 * MOST_CELLS) throw new Error("The file is too large for a scene.");
+  if (text.length > 4 * MOST_CELLS) throw new Error("The file is too large for a scene.");
   const scene = parsed(text);
   if (scene?.format !== FORMAT) throw new Error("The file is no scene of Mediant.");
-  if (scene.version !== VERSION) {
-    throw new Error(`The scene is of version ${scene.version}, and this page reads version ${VERSION}.`);
+  if (scene.version !== VERSION && scene.version !== WITH_LAND) {
+    throw new Error(`The scene is of version ${scene.version}, and this page reads version ${WITH_LAND}.`);
   }
-  const { map, rows, start, goal, lanes, active, overlay, nearest, radius, agents } = scene;
+  const { map, rows, costs: land, start, goal, lanes, active, overlay, nearest, radius, agents } = scene;
   const settings = { start, goal, lanes, active, overlay, nearest, radius, agents };
-  const why = whyNoSource(map) || whyNoRows(rows) || whyNoSettings(settings);
+  const why = whyNoSource(map) || whyNoRows(rows) || whyNoLand(land, rows) || whyNoSettings(settings);
   if (why !== "") throw new Error(`The file holds no whole scene. ${why}`);
   const [width, height] = [rows[0].length, rows.length];
   const cells = new Uint8Array(width * height);
   rows.forEach((/** @type {string} */ row, /** @type {number} */ y) => {
     for (let x = 0; x < width; x++) if (row[x] === BLOCKED) cells[y * width + x] = 1;
   });
-  return { source: plainSource(map), settings, map: { width, height, cells, edited: map.edited === true } };
+  const costs = land ? Uint8Array.from(land.join(""), Number) : null;
+  const whole = { width, height, cells, costs, edited: map.edited === true };
+  return { source: plainSource(map), settings, map: whole };
 }
 
 /** The source without what else stands beside it.
@@ -68,6 +89,17 @@ function parsed(text) {
   } catch (cause) {
     throw new Error("The file is no scene: it is damaged, or of another kind.", { cause });
   }
+}
+
+/** The mistake in rows of what cells cost, as a sentence; empty if there is none, or no rows.
+ * @param {unknown} land @param {string[]} rows */
+function whyNoLand(land, rows) {
+  if (land === undefined) return "";
+  const [width, height] = [rows[0].length, rows.length];
+  const isRow = (/** @type {unknown} */ row) => typeof row === "string" && /^[1248]*$/.test(row);
+  const isWhole = Array.isArray(land) && land.length === height;
+  if (isWhole && land.every((row) => isRow(row) && row.length === width)) return "";
+  return "What its cells cost must have a row for each row of cells, of the digits 1, 2, 4 and 8.";
 }
 
 /** The mistake in rows of cells, as a sentence; empty if there is none.

@@ -3,6 +3,7 @@
 import { BitSet } from "./bits.js";
 import { digest } from "./bytes.js";
 import { whyNotGenerated } from "./generators.js";
+import { differences, merged } from "./land.js";
 import { bundled, loadMap as loadFromPage, titleOf } from "./maps.js";
 import * as setups from "./setups.js";
 
@@ -26,11 +27,14 @@ import * as setups from "./setups.js";
  * @property {number} agents */
 
 /** A map with all its cells.
- * @typedef {{ width: number, height: number, cells: Uint8Array, edited: boolean }} WholeMap */
+ * @typedef {{ width: number, height: number, cells: Uint8Array, costs: Uint8Array | null,
+ *   edited: boolean }} WholeMap */
 
-/** A map as changes of its source's. `edits` gives the numbers of the cells that differ, once it is known how
- * many cells there are; `digest` is that of the cells that come out.
- * @typedef {{ edits: (size: number) => Promise<Uint32Array>, digest: string }} EditedMap */
+/** A map as changes of its source's. `edits` gives the numbers of the cells that differ, and `land` those
+ * that cost otherwise by what they cost, once it is known how many cells there are; `digest` is that of the
+ * map that comes out.
+ * @typedef {{ edits: (size: number) => Promise<Uint32Array>,
+ *   land: (size: number) => Promise<Map<number, Uint32Array>>, digest: string }} EditedMap */
 
 /** @typedef {{ source: MapSource, map: WholeMap | EditedMap, settings: Settings }} Scene */
 
@@ -45,6 +49,14 @@ export function digestOf(cells) {
   return digest(Math.ceil(cells.length / 4), (i) => {
     return cells[4 * i] | (cells[4 * i + 1] << 8) | (cells[4 * i + 2] << 16) | (cells[4 * i + 3] << 24);
   });
+}
+
+/** Costs with those of some cells changed; null if all are 1.
+ * @param {Uint8Array | null} costs @param {Map<number, Uint32Array>} land @param {number} size */
+export function withLand(costs, land, size) {
+  const all = costs?.slice() ?? new Uint8Array(size).fill(1);
+  for (const [cost, cells] of land) for (const cell of cells) all[cell] = cost;
+  return all.some((cost) => cost !== 1) ? all : null;
 }
 
 /** The mistake in the source of a map, as a sentence; empty if there is none.
@@ -91,7 +103,9 @@ export async function apply(scene, model, loadMap = loadFromPage) {
   if (why !== "") throw new Error(why);
   const { start, goal, lanes, ...rest } = settings;
   const isWhole = "cells" in map;
-  const { base, edits } = isWhole ? await ofWhole(source, map, loadMap) : await ofEdits(source, map, loadMap);
+  const { base, edits, land } = isWhole
+    ? await ofWhole(source, map, loadMap)
+    : await ofEdits(source, map, loadMap);
   const isInside = [start, goal].every(([x, y]) => x >= 0 && y >= 0 && x < base.width && y < base.height);
   if (!isInside) throw new Error("The start or the goal is outside of the map.");
   model.batch(() => {
@@ -105,6 +119,7 @@ export async function apply(scene, model, loadMap = loadFromPage) {
       edits.filter((cell) => base.cells[cell] === 1),
       false,
     );
+    for (const [cost, cells] of land) model.setCosts(cells, cost);
     model.endGesture();
     model.setLanes(lanes);
     model.set(rest);
@@ -116,23 +131,25 @@ export async function apply(scene, model, loadMap = loadFromPage) {
 async function ofEdits(source, map, loadMap) {
   const base = await loadMap(source);
   const edits = await map.edits(base.cells.length);
+  const land = await map.land(base.cells.length);
   const cells = base.cells.slice();
   for (const cell of edits) cells[cell] ^= 1;
-  if (digestOf(cells) !== map.digest) {
+  if (digestOf(merged(cells, withLand(base.costs ?? null, land, cells.length))) !== map.digest) {
     throw new Error(`The map "${titleOf(source)}" is no longer what it was when the link was made.`);
   }
-  return { base, edits };
+  return { base, edits, land };
 }
 
 /** The source's map with the changes that lead to the whole one; without the source, the whole one as a file.
  * @param {MapSource} source @param {WholeMap} map @param {LoadMap} loadMap */
 async function ofWhole(source, map, loadMap) {
-  const none = new Uint32Array(0);
-  if (source.kind === "file") return { base: { source, ...map }, edits: none };
+  const none = { edits: new Uint32Array(0), land: new Map() };
+  if (source.kind === "file") return { base: { source, ...map }, ...none };
   const base = await loadMap(source).catch(() => null);
   if (base === null || base.width !== map.width || base.height !== map.height) {
     const file = /** @type {const} */ ({ kind: "file", name: titleOf(source) });
-    return { base: { source: file, ...map }, edits: none };
+    return { base: { source: file, ...map }, ...none };
   }
-  return { base, edits: BitSet.of(map.cells.map((cell, i) => cell ^ base.cells[i])).toList() };
+  const edits = BitSet.of(map.cells.map((cell, i) => cell ^ base.cells[i])).toList();
+  return { base, edits, land: differences(base.costs ?? null, map.costs) };
 }

@@ -128,7 +128,9 @@ export class EnginePanel {
     const engine = this.#lanes.engines.find(({ name }) => name === setup.engine);
     this.#engine.value = setup.engine;
     this.#mark.replaceChildren(laneMark(this.#model.active));
-    setText(this.#why, `${engineHow(setup.engine)} ${engine ? promise(setup, engine.guarantee) : ""}`);
+    const onLand = this.#model.costs !== null;
+    const promised = engine ? promise(setup, engine.guarantee, onLand) : "";
+    setText(this.#why, `${engineHow(setup.engine)} ${promised}`);
     setText(this.#paper, engine?.paper ?? "");
     this.#placement.value = setup.placement;
     this.#corners.value = setup.corners;
@@ -147,7 +149,7 @@ export class EnginePanel {
 
   /** Disables what does not go together, with the library's sentence. @param {LaneSetup} setup */
   async #refuse(setup) {
-    const key = JSON.stringify(setup);
+    const key = JSON.stringify([setup, this.#model.costs !== null]);
     if (key === this.#checked || this.#lanes.engines.length === 0) return;
     this.#checked = key;
     const check = async (

@@ -8,11 +8,14 @@ const TODO = [
   "Drag k. Each k adds the mediants: a new move between every two neighbors, their sum. Paths get shorter, " +
     "and the bars say how much at most is left.",
   "Draw walls, or open a map of your own: drop a file on the page.",
+  "Take the brush of grass, forest or swamp: steps cost more there, and the path follows the cost. The map " +
+    "Landscape is made of them.",
   "Add lanes to race engines, and play their searches side by side.",
 ];
 
 const KEYS = [
   ["M D E F R", "move, draw, erase, fill, rectangle"],
+  ["L", "another brush: wall, road, grass, forest, swamp"],
   ["[ ]", "k down, k up"],
   ["P", "play or pause"],
   [", .", "one expansion back, on"],
@@ -37,6 +40,10 @@ const WORDS = [
   ["certificate", "A proof for this one path: it is at most so much longer than the shortest at any angle."],
   ["expansion", "The search takes a vertex from its open list and looks at its successors."],
   ["open", "Vertices that were reached but not expanded."],
+  [
+    "cost",
+    "What a step of length 1 costs on a cell. A path costs its length in each cell times the cell's cost.",
+  ],
   ["placement", "The place of the vertices: at the centers of cells, or at their corners."],
   [
     "corner cutting",

@@ -1,6 +1,8 @@
 // The knob: the slider for k, the star of moves beside it, and what k is worth.
 
+import { LARGEST_K_ON_LAND } from "../model/land.js";
 import { changes, eachFrame, h, part, s, setText } from "./dom.js";
+import { LadderTable } from "./ladder.js";
 import { readout } from "./readout.js";
 import { drawStar } from "./star.js";
 import { count } from "./words.js";
@@ -28,14 +30,24 @@ export function startK(model, lanes, setups, bounds) {
   drawTicks((place) => setups.change({ k: kAt(place) }));
   const worth = new Worth();
   const star = new Star(lanes);
+  const ladder = new LadderTable((k) => setups.change({ k }));
   const show = eachFrame(() => {
     const setup = model.lanes[model.active];
     if (!setup) return;
     showValue(slider, setup);
     star.show(setup.k);
     const known = bounds.of(setup);
-    worth.show(setup, known, lanes.list[model.active] ?? null, `${model.version} ${model.radius}`);
-    readout(setup, lanes.list[model.active] ?? null, known.get(setup.k));
+    const onLand = model.costs !== null;
+    const lane = lanes.list[model.active] ?? null;
+    if (onLand) worth.showLand(setup.k, lanes.ladder);
+    else worth.show(setup, known, lane, `${model.version} ${model.radius}`);
+    ladder.show(onLand, lanes.ladder, setup.k);
+    showLegend(onLand);
+    for (const tick of part("k-ticks", HTMLElement).children) {
+      const place = Number(tick.getAttribute("data-place"));
+      tick.classList.toggle("beyond", onLand && place > LARGEST_K_ON_LAND);
+    }
+    readout(setup, lane, known.get(setup.k), onLand);
   });
   changes(model, show);
   changes(lanes, show);
@@ -68,6 +80,12 @@ function showValue(slider, setup) {
   for (const tick of part("k-ticks", HTMLElement).children) {
     tick.classList.toggle("now", tick.getAttribute("data-place") === String(place));
   }
+}
+
+/** The meaning of the bars over the slider. @param {boolean} onLand */
+function showLegend(onLand) {
+  part("k-legend-map", HTMLElement).hidden = onLand;
+  part("k-legend-land", HTMLElement).hidden = !onLand;
 }
 
 /** @param {number} k */
@@ -129,6 +147,20 @@ class Worth {
     if (state === this.#drawn) return;
     this.#drawn = state;
     this.#draw(setup.k, bounds);
+  }
+
+  /** On land no bound holds on every map: the bars are how much more each k costs than the largest one.
+   *  @param {number | "any"} now @param {import("./ladder.js").Rungs} rungs */
+  showLand(now, rungs) {
+    const state = JSON.stringify(["land", now, [...rungs]]);
+    if (state === this.#drawn) return;
+    this.#drawn = state;
+    this.#seen.clear();
+    this.#key = "";
+    const least = rungs.get(LARGEST_K_ON_LAND)?.cost;
+    /** @type {Map<number | "any", number>} */ const ratios = new Map();
+    if (least) for (const [k, { cost }] of rungs) ratios.set(k, cost / least);
+    this.#draw(now, ratios);
   }
 
   /** @param {number | "any"} now @param {Map<number | "any", number | null>} bounds */

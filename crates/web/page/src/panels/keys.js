@@ -26,6 +26,7 @@ export function startKeys({ model, player, stage, tools, setups, help }) {
     "+": () => stage.zoom(1.25),
     "=": () => stage.zoom(1.25),
     "-": () => stage.zoom(0.8),
+    l: () => tools.nextBrush(),
     "?": help,
   };
   for (const { tool, key } of TOOLS) actions[key] = () => tools.choose(tool);

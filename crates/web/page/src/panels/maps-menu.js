@@ -1,5 +1,6 @@
 // The menu of maps: bundled and generated ones with small pictures, and an empty one.
 
+import { LAND } from "../model/land.js";
 import { bundled, generators, loadMap, SIDES, titleOf } from "../model/maps.js";
 import { changes, field, h, part, select, setText } from "./dom.js";
 import { icon } from "./icons.js";
@@ -117,12 +118,19 @@ function size(value, label) {
 
 /** A small picture of a map. @param {HTMLCanvasElement} canvas @param {MapSource} source */
 async function preview(canvas, source) {
-  const { width, height, cells } = await loadMap(source);
+  const { width, height, cells, costs } = await loadMap(source);
   canvas.width = width;
   canvas.height = height;
   const context = canvas.getContext("2d");
   if (!context) return;
-  context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--wall");
+  const style = getComputedStyle(document.documentElement);
+  LAND.filter(({ cost }) => cost > 1 && costs).forEach(({ cost, name }) => {
+    context.fillStyle = style.getPropertyValue(`--land-${name.toLowerCase()}`);
+    costs?.forEach((own, at) => {
+      if (own === cost) context.fillRect(at % width, Math.floor(at / width), 1, 1);
+    });
+  });
+  context.fillStyle = style.getPropertyValue("--wall");
   for (let at = 0; at < cells.length; at += 1) {
     if (cells[at]) context.fillRect(at % width, Math.floor(at / width), 1, 1);
   }

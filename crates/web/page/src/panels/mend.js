@@ -32,11 +32,18 @@ export function takes(engine, setup) {
  * @param {LaneSetup} wanted
  * @param {Partial<LaneSetup>} change
  * @param {readonly EngineInfo[]} engines
+ * @param {boolean} [onLand] whether steps cost differently
  * @returns {{ setup: LaneSetup, said: string }}
  */
-export function mended(wanted, change, engines) {
+export function mended(wanted, change, engines, onLand = false) {
   const setup = { ...wanted, ...change };
   const engine = engines.find(({ name }) => name === setup.engine);
+  if (onLand) {
+    // An engine that was chosen, and a k that there is not on land, are for the lane to refuse.
+    if (!engine || engine.costs || change.engine !== undefined) return { setup, said: "" };
+    const said = `${engineName(engine.name)} knows no costs. A* searches the land instead.`;
+    return { setup: { ...setup, engine: "astar" }, said };
+  }
   if (!engine || takes(engine, setup)) return { setup, said: "" };
   return change.engine === undefined ? withEngine(setup, change, engines) : withMotion(setup, engine);
 }

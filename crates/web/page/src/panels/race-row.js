@@ -21,13 +21,15 @@ import {
 /** @typedef {import("../../types").LaneState} LaneState */
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {{ name: string, title: string, value: ((lane: LaneState) => number | undefined) | null,
- *   text: (lane: LaneState, setup: LaneSetup) => string }} Column */
+ *   text: (lane: LaneState, setup: LaneSetup) => string, onLand?: boolean }} Column */
 
 /** @param {LaneState} lane */
 function lengthText({ answer }) {
   if (answer?.status === "unreachable") return "no path";
   return answer && answer.path.length > 0 ? cells(answer.length) : "";
 }
+/** @param {LaneState} lane */
+const cost = ({ answer }) => (answer?.status === "found" ? (answer.cost ?? undefined) : undefined);
 /** Lengths of different promise are compared only if they are whole ways. @param {LaneState} lane */
 const length = (lane) => (lane.answer?.status === "found" ? lane.answer.length : undefined);
 /** @param {LaneState} lane */
@@ -56,9 +58,17 @@ export const COLUMNS = [
     value: expansions,
     text: (lane) => (hasNoSearch(lane) ? "no search" : shown(expansions(lane), count)),
   },
+  {
+    name: "Cost",
+    title: "Of the path over the land: the length in each cell times what a step costs there",
+    value: cost,
+    text: (lane) => shown(lane.answer?.path.length ? (lane.answer.cost ?? undefined) : undefined, cells),
+    onLand: true,
+  },
   { name: "Length", title: "In cells", value: length, text: lengthText },
   {
     name: "Excess",
+    onLand: false,
     title: "How much longer the path is than the shortest",
     value: ({ answer }) => (answer?.reference?.what === "any" ? excess(answer) : undefined),
     text: ({ answer }, setup) => {
@@ -69,6 +79,7 @@ export const COLUMNS = [
   },
   {
     name: "Certificate",
+    onLand: false,
     title: "Proven: at most so much longer than the shortest path at any angle",
     value: certificate,
     text: (lane) => shown(certificate(lane), atMost),
@@ -157,6 +168,10 @@ export class RaceRow {
     );
     setText(this.#name, engineName(setup.engine));
     setText(this.#motion, motionText(setup));
+    const onLand = this.#model.costs !== null;
+    COLUMNS.forEach((column, at) => {
+      this.#cells[at].hidden = (column.onLand ?? onLand) !== onLand;
+    });
     COLUMNS.forEach((column, at) => this.#showCell(column, at, setup, lane, best));
     this.#showStatus(lane, setup);
     this.#remove.hidden = this.#model.lanes.length < 2;

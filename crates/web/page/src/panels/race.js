@@ -14,6 +14,8 @@ export class RacePanel {
   /** @type {RaceRow[]} */
   #rows = [];
   #body = h("tbody", { role: "rowgroup" });
+  /** @type {HTMLTableCellElement[]} */
+  #heads = [];
   #add = h("button", { type: "button" }, icon("plus"), "Add a lane");
 
   /**
@@ -33,14 +35,20 @@ export class RacePanel {
   #build() {
     const head = (/** @type {Node | string} */ name, title = "") =>
       h("th", { scope: "col", role: "columnheader", title: title || null }, name);
-    const heads = COLUMNS.map(({ name, title }) => head(name, title));
+    this.#heads = COLUMNS.map(({ name, title }) => head(name, title));
     const table = h(
       "table",
       { class: "race-table", role: "table", "aria-labelledby": "race-title" },
       h(
         "thead",
         { role: "rowgroup" },
-        h("tr", { role: "row" }, head("Engine"), ...heads, head(h("span", { class: "sr-only" }, "Actions"))),
+        h(
+          "tr",
+          { role: "row" },
+          head("Engine"),
+          ...this.#heads,
+          head(h("span", { class: "sr-only" }, "Actions")),
+        ),
       ),
       this.#body,
     );
@@ -69,6 +77,10 @@ export class RacePanel {
       this.#rows.push(row);
       this.#body.append(row.element);
     }
+    const onLand = this.#model.costs !== null;
+    COLUMNS.forEach((column, at) => {
+      this.#heads[at].hidden = (column.onLand ?? onLand) !== onLand;
+    });
     const best = bests(this.#lanes.list.slice(0, setups.length));
     for (const row of this.#rows) row.show(best);
     const isFull = setups.length >= MOST_LANES;

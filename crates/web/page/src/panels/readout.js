@@ -1,5 +1,6 @@
 // The answer of the active lane in three numbers and a sentence.
 
+import { LARGEST_K_ON_LAND } from "../model/land.js";
 import { h, part } from "./dom.js";
 import { announce } from "./message.js";
 import { cells, count, excess, hasNoSearch, more, over } from "./words.js";
@@ -11,18 +12,23 @@ import { cells, count, excess, hasNoSearch, more, over } from "./words.js";
  * @param {LaneSetup} setup
  * @param {LaneState | null} lane
  * @param {number | null | undefined} bound of this k and motion; undefined if it is not known yet
+ * @param {boolean} onLand whether steps cost differently
  */
-export function readout(setup, lane, bound) {
+export function readout(setup, lane, bound, onLand) {
   const answer = lane?.answer ?? null;
   const list = part("readout", HTMLElement);
   list.classList.toggle("stale", lane?.stale ?? false);
   const reference = answer?.reference?.what === "k" ? `over N(${setup.k})` : "over any angle";
-  list.replaceChildren(
-    figure("Length", lengthText(lane), answer?.path.length ? "cells" : ""),
-    figure("Excess", excessText(lane), reference),
-    figure("Certificate", certificate(lane), "at most"),
-  );
-  part("worth", HTMLElement).textContent = worth(setup, bound);
+  const length = figure("Length", lengthText(lane), answer?.path.length ? "cells" : "");
+  const figures = onLand
+    ? [figure("Cost", costText(lane), "over the land"), length]
+    : [
+        length,
+        figure("Excess", excessText(lane), reference),
+        figure("Certificate", certificate(lane), "at most"),
+      ];
+  list.replaceChildren(...figures);
+  part("worth", HTMLElement).textContent = onLand ? worthOnLand(setup) : worth(setup, bound);
   tell(lane);
 }
 
@@ -44,6 +50,20 @@ function lengthText(lane) {
   if (!answer) return "–";
   if (answer.status === "unreachable") return "no path";
   return answer.path.length ? cells(answer.length) : "–";
+}
+
+/** @param {LaneState | null} lane */
+function costText(lane) {
+  const cost = lane?.answer?.path.length ? lane.answer.cost : null;
+  return typeof cost === "number" ? cells(cost) : "–";
+}
+
+/** @param {LaneSetup} setup */
+function worthOnLand({ k }) {
+  if (k === "any" || k > LARGEST_K_ON_LAND) {
+    return `Where steps cost differently, there is k = 2 to ${LARGEST_K_ON_LAND}.`;
+  }
+  return `N(${k}): no path over it costs less. No bound is known for all maps where steps cost differently.`;
 }
 
 /** @param {LaneState | null} lane */
@@ -98,5 +118,8 @@ function sentence(lane) {
   const what = answer.reference?.what === "k" ? "over N(k)" : "at any angle";
   const above = ratio === undefined ? "" : `, ${apart(ratio)} the shortest ${what}`;
   const found = answer.status === "nearest" ? "No way to the goal; to the nearest vertex" : "Found";
+  if (answer.cost !== null) {
+    return `${found}: cost ${cells(answer.cost)}, ${cells(answer.length)} cells, ${expanded}.`;
+  }
   return `${found}: ${cells(answer.length)} cells${above}, ${expanded}.`;
 }

@@ -29,7 +29,8 @@ export class Setups {
     if (!now) return;
     const [wish, made] = this.#wishes.get(index) ?? [now, now];
     const wanted = same(made, now) ? wish : { ...now };
-    const { setup, said } = mended(wanted, change, this.#lanes.engines);
+    const onLand = this.#model.costs !== null;
+    const { setup, said } = mended(wanted, change, this.#lanes.engines, onLand);
     const remembered = change.engine === undefined ? { ...wanted, ...change } : setup;
     this.#wishes.set(index, [remembered, setup]);
     this.#isMine = true;

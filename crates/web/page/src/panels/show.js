@@ -27,6 +27,12 @@ const WORDS = {
   none: "",
 };
 
+/** The words where steps cost differently. @type {Partial<Record<Overlay, string>>} */
+const ON_LAND = {
+  distances: "The cost of a cheapest path from each vertex to the goal, with the active lane's motion.",
+  flow: "From each vertex, the direction in which a cheapest path to the goal begins.",
+};
+
 export class ShowPanel {
   #model;
   #overlay;
@@ -50,7 +56,8 @@ export class ShowPanel {
   #show() {
     const { overlay, radius } = this.#model;
     this.#overlay.value = overlay;
-    setText(this.#words, WORDS[overlay]);
+    const onLand = this.#model.costs !== null;
+    setText(this.#words, onLand ? (ON_LAND[overlay] ?? WORDS[overlay]) : WORDS[overlay]);
     this.#words.hidden = WORDS[overlay] === "";
     this.#narrow.hidden = radius === 0;
   }

@@ -2,6 +2,7 @@
 
 import { changes, eachFrame, h, part } from "./dom.js";
 import { icon, iconButton } from "./icons.js";
+import { BrushChoice } from "./land.js";
 import { announce } from "./message.js";
 
 /** @typedef {import("../../types").Tool} Tool */
@@ -9,16 +10,17 @@ import { announce } from "./message.js";
 /** @type {readonly { tool: Tool, name: string, key: string, what: string }[]} */
 export const TOOLS = [
   { tool: "move", name: "Move", key: "m", what: "Drag the start, the goal or the map" },
-  { tool: "draw", name: "Draw", key: "d", what: "Draw walls" },
-  { tool: "erase", name: "Erase", key: "e", what: "Erase walls" },
+  { tool: "draw", name: "Draw", key: "d", what: "Draw walls or land" },
+  { tool: "erase", name: "Erase", key: "e", what: "Erase walls or land" },
   { tool: "fill", name: "Fill", key: "f", what: "Fill or clear a connected area" },
-  { tool: "rectangle", name: "Rectangle", key: "r", what: "Draw a rectangle of walls" },
+  { tool: "rectangle", name: "Rectangle", key: "r", what: "Draw a rectangle of walls or land" },
 ];
 
 export class ToolBar {
   #stage;
   /** @type {Map<Tool, HTMLButtonElement>} */
   #buttons = new Map();
+  #brush;
 
   /** @param {import("../../types").Model} model @param {import("../../types").Stage & EventTarget} stage */
   constructor(model, stage) {
@@ -38,8 +40,10 @@ export class ToolBar {
     }
     const undo = iconButton("undo", "Undo", () => model.undo(), "Ctrl+Z");
     const redo = iconButton("redo", "Redo", () => model.redo(), "Ctrl+Shift+Z");
+    this.#brush = new BrushChoice(stage);
     bar.append(
       group,
+      this.#brush.element,
       h("span", { class: "spring" }),
       h(
         "div",
@@ -66,6 +70,11 @@ export class ToolBar {
   choose(tool) {
     this.#stage.tool = tool;
     this.#show();
+  }
+
+  /** Takes the next brush. */
+  nextBrush() {
+    this.#brush.next();
   }
 
   #show() {

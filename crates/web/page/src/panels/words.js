@@ -29,8 +29,10 @@ export const hasNoSearch = (lane) =>
 export const kText = (k) => (k === "any" ? "∞" : String(k));
 
 /** The engine's guarantee with this setup, in a sentence.
- *  @param {LaneSetup} setup @param {string} guarantee of the engine's table */
-export function promise(setup, guarantee) {
+ *  @param {LaneSetup} setup @param {string} guarantee of the engine's table
+ *  @param {boolean} onLand whether steps cost differently */
+export function promise(setup, guarantee, onLand) {
+  if (onLand) return "";
   if (guarantee === "suboptimal") return "Its paths may be longer than the shortest.";
   if (setup.smooth) return "Smoothing leaves N(k): the path is at most as long as before.";
   if (setup.k === "any") return "No legal path at any angle is shorter.";
@@ -87,9 +89,9 @@ export function size(bytes) {
   return `${(bytes / 1e6).toPrecision(3)} MB`;
 }
 
-/** The ratio of the answer's length to that of the reference; undefined if it is not known.
+/** The ratio of the answer's length, or cost, to that of the reference; undefined if it is not known.
  *  @param {LaneAnswer | null} answer */
 export function excess(answer) {
   if (!answer?.reference || answer.status !== "found" || answer.reference.length <= 0) return undefined;
-  return answer.length / answer.reference.length;
+  return (answer.cost ?? answer.length) / answer.reference.length;
 }

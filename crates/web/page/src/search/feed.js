@@ -5,14 +5,16 @@
 /** @import { MapNews } from "./protocol.js" */
 
 export class Feed {
-  /** @type {Pick<Model, "width" | "height" | "cells">} */
+  /** @type {Pick<Model, "width" | "height" | "cells" | "costs">} */
   #model;
+  /** Whether the worker's map has land on which steps cost differently. */
+  #hasCosts = false;
   /** Whether the worker has the map, but for the rectangle. */
   #has = false;
   /** @type {Rect | null} */
   #dirty = null;
 
-  /** @param {Pick<Model, "width" | "height" | "cells">} model */
+  /** @param {Pick<Model, "width" | "height" | "cells" | "costs">} model */
   constructor(model) {
     this.#model = model;
   }
@@ -37,14 +39,17 @@ export class Feed {
    * @returns {MapNews}
    */
   take() {
-    const { width, height, cells } = this.#model;
+    const { width, height, cells, costs = null } = this.#model;
     const rectangle = this.#dirty;
     this.#dirty = null;
-    if (!this.#has) {
-      this.#has = true;
-      return { map: { width, height, cells: cells.slice() } };
+    // A map with costs is another kind of map.
+    if (!this.#has || this.#hasCosts !== (costs !== null)) {
+      [this.#has, this.#hasCosts] = [true, costs !== null];
+      return { map: { width, height, cells: cells.slice(), costs: costs?.slice() ?? null } };
     }
-    return rectangle ? { patch: { ...rectangle, cells: copy(cells, width, rectangle) } } : {};
+    if (!rectangle) return {};
+    const [own, land] = [cells, costs].map((array) => array && copy(array, width, rectangle));
+    return { patch: { ...rectangle, cells: /** @type {Uint8Array} */ (own), costs: land } };
   }
 }
 
@@ -82,6 +87,6 @@ export function copy(cells, width, rectangle) {
  * @returns {ArrayBuffer[]}
  */
 export function buffersOf(news) {
-  const arrays = [news.map?.cells, news.patch?.cells].filter((cells) => cells !== undefined);
-  return arrays.map((cells) => /** @type {ArrayBuffer} */ (cells.buffer));
+  const arrays = [news.map?.cells, news.map?.costs, news.patch?.cells, news.patch?.costs];
+  return arrays.filter((array) => !!array).map((array) => /** @type {ArrayBuffer} */ (array.buffer));
 }

@@ -1,7 +1,8 @@
 // The helper: a worker for all that is no lane's query. It reads files, tells the moves of N(k), what they
 // are worth and which setups go together, and computes what lies over the map.
 
-/** @import { OverlayWish, Request } from "./protocol.js" */
+/** @import { LaneSetup } from "../../types.js" */
+/** @import { CostWish, OverlayWish, Request } from "./protocol.js" */
 /** @import { Field } from "../../mediant/mediant.js" */
 import { bound, checkSetup, Grid, initSync, moves } from "../../mediant/mediant.js";
 import { readMap } from "./files.js";
@@ -24,7 +25,9 @@ function reply(request) {
     case "moves":
       return { value: moves(request.k), transfer: [] };
     case "check": {
-      const why = checkSetup(request.setup.engine, motionOf(request.setup), optionsOf(request.setup));
+      const why = request.onLand
+        ? whyNotOnLand(request.setup)
+        : checkSetup(request.setup.engine, motionOf(request.setup), optionsOf(request.setup));
       return { value: why ? sentence(why) : "", transfer: [] };
     }
     case "bounds":
@@ -33,12 +36,52 @@ function reply(request) {
       const map = readMap(Grid, request.files);
       return { value: map, transfer: [/** @type {ArrayBuffer} */ (map.cells.buffer)] };
     }
+    case "cost":
+      grid = edited(grid, request.news);
+      return { value: grid && costOf(grid, request), transfer: [] };
     case "overlay": {
       grid = edited(grid, request.news);
       const value = { field: grid && fieldOf(grid, request), narrow: grid && narrowOf(grid, request) };
       const arrays = [value.field?.values, value.field?.flow, value.narrow].filter((array) => !!array);
       return { value, transfer: arrays.map((array) => /** @type {ArrayBuffer} */ (array.buffer)) };
     }
+  }
+}
+
+/**
+ * The conflict between a setup and land on which steps cost differently; undefined if there is none.
+ * @param {LaneSetup} setup
+ */
+function whyNotOnLand(setup) {
+  const land = new Grid(1, 1, new Uint8Array(1), { costs: [2] });
+  try {
+    land.setup({ engine: setup.engine, ...motionOf(setup), ...optionsOf(setup) });
+    return undefined;
+  } catch (error) {
+    return textOf(error);
+  } finally {
+    land.free();
+  }
+}
+
+/**
+ * The cost and the length of the cheapest path; null if there is none.
+ * @param {Grid} grid
+ * @param {CostWish} wish
+ */
+function costOf(grid, wish) {
+  const space = spaceOf(grid, wish);
+  const index = space.prepare("astar");
+  const planner = index.planner();
+  try {
+    const { cost, length } = planner.find(wish.start, wish.goal);
+    return cost === undefined ? null : { cost, length: length ?? 0 };
+  } catch (error) {
+    // An end on a wall; the lane says so.
+    if (error instanceof Error && error.name === "MediantError") return null;
+    throw error;
+  } finally {
+    for (const object of [planner, index, space]) object.free();
   }
 }
 

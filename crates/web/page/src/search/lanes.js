@@ -4,6 +4,7 @@
 /** @import { Order } from "./protocol.js" */
 /** @import { Change, EngineInfo, Lanes as Contract, LaneSetup, LaneState, Model } from "../../types.js" */
 import { Helper } from "./assistant.js";
+import { Ladder } from "./ladder.js";
 import { Lane } from "./lane.js";
 import { Overlay } from "./overlay.js";
 import { changeOf, sentence, setupKey, textOf } from "./protocol.js";
@@ -23,6 +24,7 @@ export class Lanes extends EventTarget {
   /** @type {Lane[]} */
   #lanes = [];
   #overlay;
+  #ladder;
   #helper = new Helper();
   /** Answers of the helper that stay true. @type {Map<string, Promise<any>>} */
   #known = new Map();
@@ -41,8 +43,10 @@ export class Lanes extends EventTarget {
     this.ready = new Promise((resolve) => (this.#readied = resolve));
     this.#first = new Promise((resolve) => (this.#shown = resolve));
     this.#overlay = new Overlay(model, () => this.#tell({ overlay: true }));
+    this.#ladder = new Ladder(model, () => this.#tell({ ladder: true }));
     this.#follow();
     this.#overlay.update();
+    this.#first.then(() => this.#ladder.update());
     model.addEventListener("change", (event) => this.#note(changeOf(event)));
   }
 
@@ -50,11 +54,15 @@ export class Lanes extends EventTarget {
     return this.#overlay.field;
   }
 
+  get ladder() {
+    return this.#ladder.rungs;
+  }
+
   get tooNarrow() {
     return this.#overlay.tooNarrow;
   }
 
-  /** @param {{ lane: number } | { overlay: true }} detail */
+  /** @param {{ lane: number } | { overlay: true } | { ladder: true }} detail */
   #tell(detail) {
     this.dispatchEvent(new CustomEvent("change", { detail }));
   }
@@ -68,6 +76,7 @@ export class Lanes extends EventTarget {
       lane.note(change);
     }
     this.#overlay.note(change);
+    this.#ladder.note(change);
     // The model tells of a gesture's end, too.
     if (!this.#model.gesture) {
       this.#lanes.forEach((lane) => lane.settle());
@@ -133,7 +142,9 @@ export class Lanes extends EventTarget {
    * @returns {Promise<string>}
    */
   check(setup) {
-    return this.#once(setupKey(setup), () => this.#helper.ask({ type: "check", setup: { ...setup } }));
+    const onLand = this.#model.costs !== null;
+    const request = /** @type {const} */ ({ type: "check", setup: { ...setup }, onLand });
+    return this.#once(`${onLand} ${setupKey(setup)}`, () => this.#helper.ask(request));
   }
 
   /**

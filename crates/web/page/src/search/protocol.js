@@ -7,8 +7,8 @@
 /**
  * The news that a worker lacks of the model's map: nothing, the map, or the cells of a rectangle.
  * @typedef {object} MapNews
- * @property {{ width: number, height: number, cells: Uint8Array }} [map]
- * @property {Rect & { cells: Uint8Array }} [patch]
+ * @property {{ width: number, height: number, cells: Uint8Array, costs: Uint8Array | null }} [map]
+ * @property {Rect & { cells: Uint8Array, costs: Uint8Array | null }} [patch]
  */
 
 /**
@@ -93,13 +93,24 @@
  * @property {boolean} narrow - Whether to tell where the agent does not fit.
  */
 
+/**
+ * A question for the cheapest path over N(k), with all that has changed of the map since the last one.
+ * @typedef {object} CostWish
+ * @property {MapNews} news
+ * @property {LaneSetup} setup
+ * @property {number} radius
+ * @property {Point} start
+ * @property {Point} goal
+ */
+
 /** @typedef {{ name: string, bytes: Uint8Array }} NamedBytes */
 
 /**
  * A request to the helper.
- * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup }
+ * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup, onLand: boolean }
  *   | { type: "bounds", setup: LaneSetup, ks: number[] }
- *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)} Request
+ *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)
+ *   | ({ type: "cost" } & CostWish)} Request
  */
 
 /** The most cells of a map that the page takes. */

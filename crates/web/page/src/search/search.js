@@ -117,10 +117,11 @@ export function* search(session, ask, say) {
   const answer = emptyAnswer(session, ask);
   try {
     const found = yield* sliced(planner, questionOf(ask), session, recording.trace, between);
-    const { status, path, distance } = found.answer;
+    const { status, path, distance, cost, length } = found.answer;
     answer.status = status === "stopped" ? "unreachable" : status;
     answer.path = path ?? answer.path;
-    answer.length = distance;
+    answer.length = length ?? distance;
+    answer.cost = cost ?? null;
     answer.expanded = recording.expanded;
     answer.generated = recording.generated;
     answer.steps = recording.steps();
@@ -148,6 +149,7 @@ function emptyAnswer(session, { start, goal, setup }) {
     status: "invalid",
     path: new Int32Array(0),
     length: Infinity,
+    cost: null,
     expanded: 0,
     generated: 0,
     ms: 0,
@@ -272,7 +274,7 @@ export function* refine(session, ask, answer, timed, say) {
   }
   if (answer.path.length && !(ask.hurry && session.judgment > LITTLE)) {
     const best = yield* optimum(session, ask, answer);
-    const what = setup.placement === "corner" ? "any" : "k";
+    const what = setup.placement === "corner" && answer.cost === null ? "any" : "k";
     say({ type: "reference", number, reference: { ...best, what } });
     yield;
   }
@@ -297,7 +299,11 @@ export const isTimed = (ask, answer) => !ask.hurry && answer.ms < SHORT;
  * @param {LaneAnswer} answer
  * @returns {Generator<void, { length: number, path: Int32Array }>}
  */
-function* optimum(session, ask, { path, length, guarantee }) {
+function* optimum(session, ask, { path, length, cost, guarantee }) {
+  if (cost !== null) {
+    // Every engine that knows costs finds the cheapest path.
+    return { length: cost, path };
+  }
   if (guarantee === `optimal(${ask.setup.placement === "corner" ? "any" : ask.setup.k})`) {
     return { length, path };
   }

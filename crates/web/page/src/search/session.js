@@ -139,7 +139,7 @@ export class Session {
     if (!patch) {
       return space;
     }
-    const changed = space.edit(patch.x, patch.y, patch.width, patch.height, patch.cells);
+    const changed = patched(space, patch);
     if (space !== this.space) {
       space.free();
     }
@@ -253,14 +253,34 @@ function isOf(index, space) {
 export function edited(grid, { map, patch }) {
   if (map) {
     grid?.free();
-    return new Grid(map.width, map.height, map.cells);
+    return new Grid(map.width, map.height, map.cells, map.costs ? { costs: map.costs } : undefined);
   }
   if (!patch || !grid) {
     return grid;
   }
-  const after = grid.edit(patch.x, patch.y, patch.width, patch.height, patch.cells);
+  const after = patched(grid, patch);
   grid.free();
   return after;
+}
+
+/**
+ * A map or a space with other cells in a rectangle; with what each costs, if they cost differently.
+ * @template {Grid | Space} T
+ * @param {T} of
+ * @param {NonNullable<MapNews["patch"]>} patch
+ * @returns {T}
+ */
+function patched(of, { x, y, width, height, cells, costs }) {
+  if (!costs) {
+    return /** @type {T} */ (of.edit(x, y, width, height, cells));
+  }
+  const places = new Int32Array(2 * cells.length);
+  for (let i = 0; i < cells.length; i++) {
+    places[2 * i] = x + (i % width);
+    places[2 * i + 1] = y + Math.floor(i / width);
+  }
+  const each = Array.from(cells, (cell, i) => (cell ? null : costs[i]));
+  return /** @type {T} */ (of.editCosts(places, each));
 }
 
 /**

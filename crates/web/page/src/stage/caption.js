@@ -81,7 +81,8 @@ export class Caption {
     say(this.k, `k = ${kText(setup.k)}`);
     const answer = state?.answer ?? null;
     const isKnown = answer && (answer.status === "found" || answer.status === "nearest") && hasArrived;
-    say(this.length, isKnown ? cells(answer.length) : "");
+    const price = isKnown && answer.cost !== null ? `cost ${cells(answer.cost)}` : "";
+    say(this.length, price || (isKnown ? cells(answer.length) : ""));
     const status = state ? statusOf(state) : "starting";
     say(this.status, status);
     // The parts of the caption are set apart by space alone: read out, "k = 3" and "74.43" were one number.
@@ -110,7 +111,7 @@ export class Legend {
   }
 
   /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
-   *  @param {{ search: "" | "tiles" | "marks" | "labels", isBeaten: boolean }} shown */
+   *  @param {{ search: "" | "tiles" | "marks" | "labels", isBeaten: boolean, onLand: boolean }} shown */
   update(overlay, field, setup, shown) {
     const html = legendOf(overlay, field, setup, shown);
     if (html === this.key) return;
@@ -124,8 +125,8 @@ export class Legend {
 const short = (value) => (value >= 100 ? value.toFixed(0) : String(Number(value.toPrecision(3))));
 
 /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
- *  @param {{ search: string, isBeaten: boolean }} shown */
-function legendOf(overlay, field, setup, { search, isBeaten }) {
+ *  @param {{ search: string, isBeaten: boolean, onLand: boolean }} shown */
+function legendOf(overlay, field, setup, { search, isBeaten, onLand }) {
   if (overlay === "search" && search) {
     const what = setup.placement === "corner" ? "at any angle" : "over N(k)";
     const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
@@ -134,7 +135,7 @@ function legendOf(overlay, field, setup, { search, isBeaten }) {
       <i class="stage-tile"></i><span>open</span>`;
   }
   if (field && field.kind === overlay) {
-    const what = overlay === "clearance" ? "clearance" : "distance";
+    const what = overlay === "clearance" ? "clearance" : onLand ? "cost" : "distance";
     return `<span>${what} 0</span><i class="stage-scale is-${overlay}"></i>
       <span>${short(field.greatest)}</span>`;
   }

@@ -12,6 +12,7 @@
  * @property {number} danger As a pixel.
  * @property {number} wall As a pixel.
  * @property {number} wallInField Walls between colors, as a pixel.
+ * @property {Uint32Array} land From the cheapest to the dearest, as pixels; 0 for that of free cells.
  * @property {Uint32Array} field From least to greatest, as pixels.
  */
 
@@ -37,6 +38,9 @@ const NAMES = [
   "focus",
   "outside",
   "stage-wall-in-field",
+  "land-grass",
+  "land-forest",
+  "land-swamp",
 ];
 
 /** The figures' scale of a field: its lightness falls evenly, so that the order is seen without hues. */
@@ -121,6 +125,7 @@ export function readTheme(element) {
     danger: pixelOf("danger"),
     wall: pixelOf("wall"),
     wallInField: pixelOf("stage-wall-in-field"),
+    land: Uint32Array.from([0, ...["land-grass", "land-forest", "land-swamp"].map(pixelOf)]),
     field: ramp(SCALE.map(parse)),
   };
 }

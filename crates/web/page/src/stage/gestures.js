@@ -1,5 +1,6 @@
 // The gestures: a drag moves the map or an end, or draws a stroke or a rectangle; and the fill of an area.
 
+import { LAND, merged } from "../model/land.js";
 import { View } from "./view.js";
 
 /** @typedef {import("./stage.js").Stage} Stage */
@@ -58,6 +59,13 @@ function addCells(model, rect, cells) {
   }
 }
 
+/** Paints with the brush: walls, or land. What is erased is free, and with a brush of land a road.
+ *  @param {Stage} stage @param {Iterable<number>} cells @param {boolean} isErasing */
+function paint({ model, brush }, cells, isErasing) {
+  if (brush === 0) model.paint(cells, !isErasing);
+  else model.paintLand(cells, isErasing ? LAND[0].cost : brush);
+}
+
 /** @param {Stage} stage @param {Spot} from @returns {Gesture} */
 export function panning(stage, from) {
   let last = from;
@@ -112,7 +120,7 @@ export function dragging(pane, which, from) {
   };
 }
 
-/** Draws or erases walls under the brush, without gaps between the places of the pointer.
+/** Draws or erases walls or land under the brush, without gaps between the places of the pointer.
  *  @param {Pane} pane @param {boolean} isErasing @param {Spot} from @returns {Gesture} */
 export function stroking(pane, isErasing, from) {
   const { stage } = pane;
@@ -122,15 +130,15 @@ export function stroking(pane, isErasing, from) {
   stage.watched = pane;
   record.begin();
   model.beginGesture("cells");
-  const paint = (/** @type {Rect[]} */ rects, /** @type {number} */ time) => {
+  const paintRects = (/** @type {Rect[]} */ rects, /** @type {number} */ time) => {
     /** @type {Set<number>} */
     const cells = new Set();
     for (const rect of rects) addCells(model, rect, cells);
     const old = model.version;
-    if (cells.size > 0) model.paint(cells, !isErasing);
+    if (cells.size > 0) paint(stage, cells, isErasing);
     if (model.version !== old) record.moved(model, time);
   };
-  paint([last], from.time);
+  paintRects([last], from.time);
   const end = () => {
     record.end();
     model.endGesture();
@@ -143,7 +151,7 @@ export function stroking(pane, isErasing, from) {
         rects.push(...between(last, next));
         last = next;
       }
-      paint(rects, spots[spots.length - 1].time);
+      paintRects(rects, spots[spots.length - 1].time);
     },
     end,
     cancel() {
@@ -164,7 +172,7 @@ function between(a, b) {
   return rects;
 }
 
-/** A rectangle of walls, or of free cells; all panes show it until it is done.
+/** A rectangle of walls or land, or of free cells; all panes show it until it is done.
  *  @param {Pane} pane @param {boolean} isErasing @param {Spot} from @returns {Gesture} */
 export function boxing(pane, isErasing, from) {
   const { stage } = pane;
@@ -189,25 +197,26 @@ export function boxing(pane, isErasing, from) {
       if (stage.preview) addCells(model, stage.preview.rect, cells);
       cancel();
       model.beginGesture("cells");
-      model.paint(cells, !isErasing);
+      paint(stage, cells, isErasing);
       model.endGesture();
     },
     cancel,
   };
 }
 
-/** Makes the area around a cell the other way: free cells blocked, walls free. An area is connected by
- *  edges. @param {Model} model @param {Point} at */
-export function fill(model, [x, y]) {
-  const area = areaOf(model, y * model.width + x);
-  const isBlocked = model.cells[y * model.width + x] !== 0;
+/** Makes the area around a cell the other way: free cells blocked, walls free; with a brush of land, makes
+ *  it this land. An area is connected by edges. @param {Model} model @param {Point} at
+ *  @param {number} [brush] */
+export function fill(model, [x, y], brush = 0) {
+  const from = y * model.width + x;
   model.beginGesture("cells");
-  model.paint(area, !isBlocked);
+  if (brush === 0) model.paint(areaOf(model, model.cells, from), model.cells[from] === 0);
+  else model.paintLand(areaOf(model, merged(model.cells, model.costs), from), brush);
   model.endGesture();
 }
 
-/** @param {Model} model @param {number} from @returns {number[]} */
-function areaOf({ width, height, cells }, from) {
+/** @param {Model} model @param {Uint8Array} cells @param {number} from @returns {number[]} */
+function areaOf({ width, height }, cells, from) {
   const state = cells[from];
   const seen = new Uint8Array(width * height);
   const area = [from];

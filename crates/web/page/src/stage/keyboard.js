@@ -1,6 +1,8 @@
 // The keyboard on a pane: a cursor of one cell that draws walls and puts the ends, and the keys of view and
 // tools.
 
+import { landOf } from "../model/land.js";
+
 /** @typedef {import("./stage.js").Stage} Stage */
 /** @typedef {import("./pane.js").Pane} Pane */
 
@@ -11,8 +13,8 @@ const TOOLS = ["move", "draw", "erase", "fill", "rectangle"];
 const FAR = 8;
 
 export class Keyboard {
-  /** While a key is held that draws: the key, and what it makes of cells. @type {{ key: string, blocked:
-   *  boolean } | null} */
+  /** While a key is held that draws: the key, and what it makes of cells. @type {{ key: string, paint:
+   *  (cells: number[]) => void } | null} */
   #drawing = null;
   #version = 0;
 
@@ -89,7 +91,7 @@ export class Keyboard {
       cursor.y = Math.min(model.height - 1, Math.max(0, cursor.y + dy));
       cells.push(cursor.y * model.width + cursor.x);
     }
-    if (this.#drawing) model.paint(cells, this.#drawing.blocked);
+    this.#drawing?.paint(cells);
     const before = [view.x, view.y];
     view.reveal(cursor.x, cursor.y);
     if (view.x !== before[0] || view.y !== before[1]) this.stage.moved();
@@ -107,12 +109,22 @@ export class Keyboard {
     }
     if (isRepeat || this.#drawing) return true;
     const cell = cursor.y * model.width + cursor.x;
-    this.#drawing = { key, blocked: model.cells[cell] === 0 };
+    this.#drawing = { key, paint: this.#brushAt(cell) };
     this.#version = model.version;
     model.beginGesture("cells");
-    model.paint([cell], this.#drawing.blocked);
+    this.#drawing.paint([cell]);
     this.#tell();
     return true;
+  }
+
+  /** The stroke that begins at a cell: what is there already, it takes away. @param {number} cell
+   *  @returns {(cells: number[]) => void} */
+  #brushAt(cell) {
+    const { model, brush } = this.stage;
+    const isFree = model.cells[cell] === 0;
+    if (brush === 0) return (cells) => model.paint(cells, isFree);
+    const isThere = isFree && (model.costs?.[cell] ?? 1) === brush;
+    return (cells) => model.paintLand(cells, isThere ? 1 : brush);
   }
 
   #stop() {
@@ -159,7 +171,10 @@ export class Keyboard {
     const { x, y } = cursor;
     const isAt = (/** @type {readonly number[]} */ end) => end[0] === x && end[1] === y;
     const end = isAt(model.start) ? ", the start" : isAt(model.goal) ? ", the goal" : "";
-    this.#say(`Cell ${x}, ${y}: ${model.cells[y * model.width + x] ? "wall" : "free"}${end}.`);
+    const cell = y * model.width + x;
+    const land = landOf(model.costs?.[cell] ?? 0);
+    const free = land ? `${land.name.toLowerCase()}, cost ${land.cost}` : "free";
+    this.#say(`Cell ${x}, ${y}: ${model.cells[cell] ? "wall" : free}${end}.`);
   }
 
   /** @param {string} sentence */

@@ -76,8 +76,8 @@ export function drawOptimum(context, frame, answer, shift, theme) {
 
 /** Whether the optimum is shorter than the lane's path: by more than sums of roots differ by rounding.
  *  @param {LaneAnswer} answer */
-export function isBeaten({ reference, length }) {
-  return !!reference && reference.length < length * (1 - 1e-9);
+export function isBeaten({ reference, length, cost }) {
+  return !!reference && reference.length < (cost ?? length) * (1 - 1e-9);
 }
 
 /** Dots along the path that was traced. @param {CanvasRenderingContext2D} context @param {Frame} frame

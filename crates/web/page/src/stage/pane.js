@@ -17,6 +17,8 @@ import { Rules } from "./paint-rules.js";
 
 /** An answer that is older than the scene fades after so many milliseconds. */
 const FADES_AFTER = 350;
+/** The opacity of the search where there is land below it. */
+const OVER_LAND = 0.42;
 
 export class Pane {
   /** @type {Record<"ground" | "walls" | "top", CanvasRenderingContext2D>} */
@@ -154,8 +156,13 @@ export class Pane {
     context.fillStyle = theme.css.free;
     context.fillRect(0, 0, frame.width, frame.height);
     const field = this.#fieldShown();
+    const { land } = this.stage;
+    if (!field || field.kind === "flow") land.draw(context, frame);
     if (field) this.#field.drawColors(context, frame, field, theme);
+    // The land shines through the search.
+    context.globalAlpha = land.isShown ? OVER_LAND : 1;
     if (!this.#heat.isSparse) this.#heat.draw(context, frame, this.shift - 0.5, drawn);
+    context.globalAlpha = 1;
     context.restore();
   }
 
@@ -259,13 +266,15 @@ export class Pane {
     this.note.hidden = sentence === "";
     const hasSearch = !!state?.answer?.steps?.length;
     const isHere = this.#isActive || model.overlay === "rules";
-    const searched = !hasSearch ? "" : this.#heat.isSparse ? "marks" : "tiles";
-    const search = hasNoSearch(state) ? "labels" : searched;
+    /** @type {"" | "tiles" | "marks" | "labels"} */
+    const search = hasNoSearch(state) ? "labels" : !hasSearch ? "" : this.#heat.isSparse ? "marks" : "tiles";
     const answer = state?.answer;
     // The optimum comes a little after its answer: until then the legend stays as it is.
     if (answer && (answer.reference || !answer.path.length)) this.#isBeaten = isBeaten(answer);
     const { legend } = this;
-    legend.update(isHere ? model.overlay : "none", lanes.field, setup, { search, isBeaten: this.#isBeaten });
+    const onLand = model.costs !== null;
+    const shown = { search, isBeaten: this.#isBeaten, onLand };
+    legend.update(isHere ? model.overlay : "none", lanes.field, setup, shown);
     const label = `Map, lane ${this.lane + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}`;
     if (this.surface.getAttribute("aria-label") !== label) this.surface.setAttribute("aria-label", label);
   }

@@ -4,6 +4,7 @@
 import { element } from "./caption.js";
 import { readTheme, watchTheme } from "./colors.js";
 import { Keyboard } from "./keyboard.js";
+import { LandPainter } from "./paint-land.js";
 import { Walls } from "./paint-map.js";
 import { Pane } from "./pane.js";
 import { DragRecord } from "./record.js";
@@ -20,8 +21,8 @@ import { View } from "./view.js";
 /** @typedef {import("../../types.d.ts").Tool} Tool */
 
 const HELP = `Arrow keys move the cell cursor, with Shift by eight cells. Space or Enter draws or erases a
-  wall; hold it to go on. S puts the start here, G the goal. Plus and minus zoom, 0 shows all. 1 to 5
-  choose the tool. Escape leaves what is under way.`;
+  wall; hold it to go on. L takes another brush: road, grass, forest or swamp. S puts the start here, G the
+  goal. Plus and minus zoom, 0 shows all. 1 to 5 choose the tool. Escape leaves what is under way.`;
 
 /** Dispatches `tool` when the tool changes, and `say` with a sentence for those who do not see the cell
  *  cursor. @implements {Contract} */
@@ -32,6 +33,7 @@ export class Stage extends EventTarget {
   walls = new Walls();
   /** Darker, for panes that show a field: loaded only while one is shown. */
   wallsInField = new Walls();
+  land = new LandPainter();
   record = new DragRecord();
   /** The cell of the keyboard. */
   cursor = { x: 0, y: 0, isShown: false };
@@ -45,6 +47,7 @@ export class Stage extends EventTarget {
   helpId = "stage-help";
   /** @type {Tool} */
   #tool = "move";
+  #brush = 0;
   #frame = 0;
   #size = [0, 0];
 
@@ -83,6 +86,16 @@ export class Stage extends EventTarget {
     this.root.dataset.tool = tool;
     this.preview = null;
     this.soil("top");
+    this.dispatchEvent(new Event("tool"));
+  }
+
+  get brush() {
+    return this.#brush;
+  }
+
+  set brush(brush) {
+    if (brush === this.#brush) return;
+    this.#brush = brush;
     this.dispatchEvent(new Event("tool"));
   }
 
@@ -170,6 +183,7 @@ export class Stage extends EventTarget {
     }
     if (change.cells && !change.map) {
       this.walls.patch(this.model, change.cells);
+      if (this.land.patch(this.model, change.cells, this.theme)) this.soil("ground", "text");
       if (this.#hasField) this.wallsInField.patch(this.model, change.cells);
       for (const pane of this.panes) {
         // Lines and glyphs of an overlay reach further than the cells.
@@ -199,6 +213,7 @@ export class Stage extends EventTarget {
 
   #loadWalls() {
     this.walls.load(this.model, this.theme.wall);
+    this.land.load(this.model, this.theme);
     if (this.#hasField) this.wallsInField.load(this.model, this.theme.wallInField);
   }
 

@@ -106,7 +106,7 @@ export class PointerTools {
     if (tool === "rectangle") return () => boxing(pane, isErasing, spot);
     if (tool !== "fill") return () => stroking(pane, isErasing, spot);
     return () => {
-      fill(stage.model, cellAt(pane, spot));
+      fill(stage.model, cellAt(pane, spot), stage.brush);
       const nothing = () => {};
       return { move: nothing, end: nothing, cancel: nothing };
     };
