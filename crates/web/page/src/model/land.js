@@ -14,6 +14,9 @@ export const LAND = Object.freeze([
 /** The largest k that there is where steps cost differently. */
 export const LARGEST_K_ON_LAND = 8;
 
+/** On a map of more cells it would take minutes to find what each k is worth. */
+export const MOST_CELLS_OF_LADDER = 2 ** 20;
+
 /** @param {number} cost */
 export const landOf = (cost) => LAND.find((land) => land.cost === cost);
 

@@ -129,7 +129,8 @@ export class EnginePanel {
     this.#engine.value = setup.engine;
     this.#mark.replaceChildren(laneMark(this.#model.active));
     const onLand = this.#model.costs !== null;
-    const promised = engine ? promise(setup, engine.guarantee, onLand) : "";
+    const isTaken = engine && (!onLand || engine.costs);
+    const promised = isTaken ? promise(setup, engine.guarantee, onLand) : "";
     setText(this.#why, `${engineHow(setup.engine)} ${promised}`);
     setText(this.#paper, engine?.paper ?? "");
     this.#placement.value = setup.placement;

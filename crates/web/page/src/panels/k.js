@@ -1,6 +1,6 @@
 // The knob: the slider for k, the star of moves beside it, and what k is worth.
 
-import { LARGEST_K_ON_LAND } from "../model/land.js";
+import { LARGEST_K_ON_LAND, MOST_CELLS_OF_LADDER } from "../model/land.js";
 import { changes, eachFrame, h, part, s, setText } from "./dom.js";
 import { LadderTable } from "./ladder.js";
 import { readout } from "./readout.js";
@@ -41,7 +41,7 @@ export function startK(model, lanes, setups, bounds) {
     const lane = lanes.list[model.active] ?? null;
     if (onLand) worth.showLand(setup.k, lanes.ladder);
     else worth.show(setup, known, lane, `${model.version} ${model.radius}`);
-    ladder.show(onLand, lanes.ladder, setup.k);
+    ladder.show(onLand && model.cells.length <= MOST_CELLS_OF_LADDER, lanes.ladder, setup.k);
     showLegend(onLand);
     for (const tick of part("k-ticks", HTMLElement).children) {
       const place = Number(tick.getAttribute("data-place"));

@@ -32,7 +32,7 @@ export const kText = (k) => (k === "any" ? "∞" : String(k));
  *  @param {LaneSetup} setup @param {string} guarantee of the engine's table
  *  @param {boolean} onLand whether steps cost differently */
 export function promise(setup, guarantee, onLand) {
-  if (onLand) return "";
+  if (onLand) return setup.k === "any" ? "" : `No path over N(${setup.k}) costs less.`;
   if (guarantee === "suboptimal") return "Its paths may be longer than the shortest.";
   if (setup.smooth) return "Smoothing leaves N(k): the path is at most as long as before.";
   if (setup.k === "any") return "No legal path at any angle is shorter.";

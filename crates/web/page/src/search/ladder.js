@@ -2,13 +2,11 @@
 // its own. It waits until no gesture is under way; the latest scene wins.
 
 /** @import { Change, Model } from "../../types.js" */
-import { LARGEST_K_ON_LAND } from "../model/land.js";
+import { LARGEST_K_ON_LAND, MOST_CELLS_OF_LADDER } from "../model/land.js";
 import { Helper } from "./assistant.js";
 import { buffersOf, Feed } from "./feed.js";
 import { motionKey } from "./protocol.js";
 
-/** On a map of more cells all k would take minutes. */
-const LARGE = 2 ** 20;
 const KS = Array.from({ length: LARGEST_K_ON_LAND - 1 }, (_, index) => index + 2);
 
 export class Ladder {
@@ -46,9 +44,9 @@ export class Ladder {
   /** Asks for what is not there yet, if it is time. */
   update() {
     this.#isStarted = true;
-    const { costs, width, height, version, radius, lanes, active, start, goal, gesture } = this.#model;
+    const { costs, cells, version, radius, lanes, active, start, goal, gesture } = this.#model;
     const setup = lanes[active];
-    if (costs === null || !setup || width * height > LARGE) {
+    if (costs === null || !setup || cells.length > MOST_CELLS_OF_LADDER) {
       this.#forget("");
       return;
     }
