@@ -85,8 +85,8 @@ pub enum ErrorCode {
     BrokenPath,
     /// A map with a character that is neither free nor blocked, or with characters that cannot be either.
     MapTile,
-    /// A cost of a cell that is no positive number, costs that do not fit together or on the map, or a cell
-    /// without one.
+    /// A cost or an elevation of a cell that cannot be one, numbers that do not fit together or on the map, or
+    /// a cell without one.
     Cost,
     /// A mistake of a kind that has no name yet.
     Other,
@@ -163,6 +163,8 @@ impl Error {
             Self::Broken(_) => ErrorCode::BrokenPath,
             #[cfg(feature = "costs")]
             Self::Costs(error) => of_costs(error),
+            #[cfg(feature = "rasters")]
+            Self::OtherSize { .. } | Self::Degrees => ErrorCode::Cost,
             Self::Freed { .. } => ErrorCode::Cost,
             Self::Grid(_) => ErrorCode::Other,
         }
@@ -172,9 +174,11 @@ impl Error {
 #[cfg(feature = "costs")]
 const fn of_costs(error: &CostsError) -> ErrorCode {
     match error {
-        CostsError::Size { .. } => ErrorCode::MapSize,
+        CostsError::Size { .. } | CostsError::Inflated { .. } => ErrorCode::MapSize,
         CostsError::K { .. } => ErrorCode::Motion,
-        CostsError::CellSize { .. } => ErrorCode::Number,
+        CostsError::CellSize { .. } | CostsError::Setting { .. } | CostsError::SmallInflation { .. } => {
+            ErrorCode::Number
+        }
         CostsError::Outside { .. } => ErrorCode::EditOutside,
         CostsError::Count { .. } | CostsError::Cost { .. } | CostsError::Range { .. } => ErrorCode::Cost,
         _ => ErrorCode::Other,

@@ -81,7 +81,7 @@ impl Costs {
         Self::of(map, (1.0, 1.0), interrupt, cost)
     }
 
-    fn of(
+    pub(crate) fn of(
         map: &Map,
         cell_size: (f64, f64),
         interrupt: &Interrupt,

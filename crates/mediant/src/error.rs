@@ -86,6 +86,25 @@ pub enum Error {
     #[cfg(feature = "costs")]
     #[error(transparent)]
     Costs(CostsError),
+    /// A raster of another size than the map.
+    #[cfg(feature = "rasters")]
+    #[error(
+        "{} columns and {} rows of numbers, and the map has {} and {}: give one number for each cell",
+        found.0, found.1, expected.0, expected.1
+    )]
+    OtherSize {
+        /// The columns and the rows of the raster.
+        found: (u32, u32),
+        /// Those of the map.
+        expected: (u32, u32),
+    },
+    /// A raster in longitudes and latitudes.
+    #[cfg(feature = "rasters")]
+    #[error(
+        "the coordinates are degrees, and the width of a cell differs from row to row: project it to meters \
+         first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there"
+    )]
+    Degrees,
     /// A cell that is freed in a space with costs, without a cost.
     #[error(
         "cell {cell} is freed, and has no cost: give it one, as in `space.edit_costs([(cell, Some(1.0))])`"
@@ -180,12 +199,12 @@ pub enum Error {
     /// A file that cannot be read.
     #[error(transparent)]
     Read(ReadError),
-    /// An index in a file that cannot be used: its own error, and which file it is.
+    /// An index or a raster in a file that cannot be used: its own error, and which file it is.
     #[error("{}: {source}", path.display())]
     InFile {
         /// The file.
         path: PathBuf,
-        /// The error of the index.
+        /// The error of what is in it.
         source: Box<Error>,
     },
     /// A file that cannot be written.
@@ -279,7 +298,7 @@ impl From<RowsError> for Error {
 }
 
 impl Error {
-    /// This error of the index in a file.
+    /// This error of what is in a file.
     pub(crate) fn in_file(self, path: &Path) -> Self {
         if matches!(self, Self::Stopped { .. }) {
             return self;

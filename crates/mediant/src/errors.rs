@@ -3,6 +3,8 @@
 
 #[cfg(feature = "costs")]
 pub use mediant_costs::CostsError;
+#[cfg(feature = "rasters")]
+pub use mediant_formats::SurfaceError;
 pub use mediant_formats::{
     IndexError, MapError, RasterError, ReadError, RosError, TileError, TilesError, WriteError,
 };

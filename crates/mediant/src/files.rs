@@ -4,3 +4,5 @@ pub use mediant_formats::{
     Fraction, FractionError, MapFormat, MapOptions, MapSource, RosVersion, Tiles, Unknown, WorldError,
     WorldFrame,
 };
+#[cfg(feature = "rasters")]
+pub use mediant_formats::{Georeference, Samples, Surface, SurfaceFormat, SurfaceOptions, read_surface};

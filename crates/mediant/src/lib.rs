@@ -184,7 +184,8 @@
 //! - `all-engines`, on by default: without it there are A*, Dijkstra, canonical A*, JPS, block-based JPS and
 //!   Anya.
 //! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
-//! - `costs`, on by default: costs of cells, [`Map::costs`].
+//! - `costs`, on by default: costs of cells, [`Map::costs`], and robots' costmaps, [`Costmap`].
+//! - `rasters`, on by default: costs from rasters of numbers, `Costs::open`; with `geotiff` also from GeoTIFFs.
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `publications`: options that only reproduce publications.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
@@ -206,6 +207,8 @@ mod choice;
 mod code;
 mod configured;
 pub mod cookbook;
+#[cfg(feature = "costs")]
+mod costmap;
 #[cfg(feature = "costs")]
 mod costs;
 mod demand;
@@ -236,6 +239,8 @@ pub mod options;
 mod path_check;
 mod planner;
 mod planners;
+#[cfg(feature = "rasters")]
+mod rasters;
 #[cfg(doctest)]
 mod readme;
 mod recent;
@@ -260,6 +265,8 @@ pub use change::Change;
 pub use choice::Choice;
 pub use code::ErrorCode;
 #[cfg(feature = "costs")]
+pub use costmap::Costmap;
+#[cfg(feature = "costs")]
 pub use costs::Costs;
 pub use demand::Demand;
 pub use engine::Engine;
@@ -271,6 +278,8 @@ pub use ground::Ground;
 pub use index::{Index, Origin};
 pub use limits::Limits;
 pub use map::Map;
+#[cfg(feature = "costs")]
+pub use mediant_costs::{Inflation, Traversal};
 #[doc(hidden)]
 pub use mediant_grid::names;
 pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Point, Rectangle, Rules, Vertex};

@@ -39,8 +39,8 @@ use crate::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct Within<'a, T> {
-    of: &'a T,
-    limits: Limits,
+    pub(crate) of: &'a T,
+    pub(crate) limits: Limits,
 }
 
 impl Map {

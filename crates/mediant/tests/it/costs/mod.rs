@@ -1,10 +1,12 @@
 //! Costs of cells: queries with every wish, fields, edits and errors, against Dijkstra's algorithm on the
 //! explicit graph with exact integrals.
 
+mod costmaps;
 mod edits;
 mod fields;
 mod kept;
 mod queries;
+mod rasters;
 mod refused;
 
 use std::sync::Arc;

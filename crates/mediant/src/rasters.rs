@@ -1,0 +1,151 @@
+//! Costs of cells from rasters of numbers: NPY, ESRI ASCII grids, PGM, PNG and GeoTIFF.
+
+use std::path::Path as FilePath;
+
+use mediant_costs::CostsError;
+use mediant_formats::{Georeference, Surface, SurfaceOptions, read_surface, read_surface_interruptible};
+use mediant_grid::{Grid, Interrupt};
+use mediant_search::Limits;
+
+use crate::{costs::Costs, error::Error, map::Map, never::NEVER, within::Within};
+
+impl Costs {
+    /// Reads a raster whose numbers are the costs of cells: NPY, an ESRI ASCII grid, PGM or PNG of gray, or
+    /// with the feature `geotiff` a GeoTIFF, told by its content. Cells without data are blocked. The cells
+    /// have the size that the file states, else 1 × 1: a cost is one a unit of length of that size.
+    ///
+    /// [`Map::costs_of`] joins the costs of a raster with the walls of a map, and
+    /// [`Costmap::open`](crate::Costmap::open) reads maps of robots.
+    ///
+    /// ```no_run
+    /// use mediant::{Costs, K, Motion};
+    ///
+    /// let space = Costs::open("friction.tif")?.space(Motion::centers(K::N16))?;
+    /// let distance = space.field([(100, 200)])?.lengths();
+    /// # let _ = distance;
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Read`] for a file that is missing, cannot be read, or is no such raster. [`Error::InFile`]
+    /// with the errors of [`Map::costs_of`] inside.
+    pub fn open(path: impl AsRef<FilePath>) -> Result<Self, Error> {
+        Ok(Self::open_with(path, &SurfaceOptions::default())?.0)
+    }
+
+    /// Reads costs as [`open`](Self::open) does, with options, and with the place of the raster in the world,
+    /// for a raster of results: [`Surface::with_georeference`].
+    ///
+    /// # Errors
+    /// As for [`open`](Self::open).
+    pub fn open_with(
+        path: impl AsRef<FilePath>,
+        options: &SurfaceOptions,
+    ) -> Result<(Self, Georeference), Error> {
+        let path = path.as_ref();
+        let surface = read_surface(path, options)?;
+        let costs = Self::from_surface(&surface).map_err(|error| error.in_file(path))?;
+        Ok((costs, surface.georeference().clone()))
+    }
+
+    /// Reads costs as [`open_with`](Self::open_with) does, unless the deadline or the flag of the limits
+    /// stops it before it is done.
+    ///
+    /// # Errors
+    /// As for [`open`](Self::open), and [`Error::Stopped`].
+    pub fn open_within(
+        path: impl AsRef<FilePath>,
+        options: &SurfaceOptions,
+        limits: impl Into<Limits>,
+    ) -> Result<(Self, Georeference), Error> {
+        let (path, limits) = (path.as_ref(), limits.into());
+        let surface = read_surface_interruptible(path, options, limits.interrupt())?;
+        let map = Map::with_data(&surface)?;
+        let costs = map.within(limits).costs_of(&surface).map_err(|error| error.in_file(path))?;
+        Ok((costs, surface.georeference().clone()))
+    }
+
+    /// The costs of a raster; cells without data are blocked.
+    ///
+    /// # Errors
+    /// As for [`Map::costs_of`].
+    pub fn from_surface(surface: &Surface) -> Result<Self, Error> {
+        Map::with_data(surface)?.costs_of(surface)
+    }
+}
+
+impl Map {
+    /// The map of a raster: cells without data are blocked.
+    ///
+    /// # Errors
+    /// [`Error::Grid`] for sides that no map has.
+    pub fn with_data(surface: &Surface) -> Result<Self, Error> {
+        let mut has_data = surface.iter().map(|number| number.is_some());
+        let is_blocked = |_, _| !has_data.next().unwrap_or(false);
+        Ok(Grid::from_fn(surface.width(), surface.height(), is_blocked)?.into())
+    }
+
+    /// This map with the costs of a raster of the same size. Cells are blocked that are blocked here or have
+    /// no data there. They have the size that the raster states, else 1 × 1.
+    ///
+    /// ```
+    /// use mediant::{Map, files::Surface};
+    ///
+    /// let map = Map::from_rows(["..#", "..."])?;
+    /// let raster = Surface::new(3, 2, vec![4_u8, 4, 4, 0, 1, 1]).map_err(|error| error.to_string())?;
+    /// let costs = map.costs_of(&raster.with_no_data(Some(0.0)))?;
+    /// assert_eq!([costs.cost((0, 0)), costs.cost((2, 0)), costs.cost((0, 1))], [Some(4.0), None, None]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OtherSize`] for a raster of another size; [`Error::Degrees`] for one in longitudes and
+    /// latitudes, where a cell is narrower the nearer it is to a pole; [`Error::Costs`] as for
+    /// [`Map::costs`].
+    pub fn costs_of(&self, surface: &Surface) -> Result<Costs, Error> {
+        costs_unless(self, surface, &NEVER)
+    }
+
+    /// This map, where cells without data in a raster of the same size are blocked, too, and the size of a
+    /// cell.
+    pub(crate) fn on_surface(&self, surface: &Surface) -> Result<(Self, Option<(f64, f64)>), Error> {
+        let (found, expected) = ((surface.width(), surface.height()), (self.width(), self.height()));
+        if found != expected {
+            return Err(Error::OtherSize { found, expected });
+        }
+        if surface.is_in_degrees() {
+            return Err(Error::Degrees);
+        }
+        let mut has_data = surface.iter().map(|number| number.is_some());
+        let is_blocked = |x: u32, y: u32| {
+            let is_known = has_data.next().unwrap_or(false);
+            !is_known || self.grid().is_blocked(x as i32, y as i32)
+        };
+        Ok((Grid::from_fn(found.0, found.1, is_blocked)?.into(), surface.cell_size()))
+    }
+}
+
+fn costs_unless(map: &Map, surface: &Surface, interrupt: &Interrupt) -> Result<Costs, Error> {
+    let (map, cell_size) = map.on_surface(surface)?;
+    let columns = surface.width() as usize;
+    let cell = |(at, cost): (usize, Option<f64>)| ((at % columns) as u32, (at / columns) as u32, cost);
+    // By the numbers of the file: 'no data' is no cost.
+    let wrong = surface.iter().enumerate().map(cell).find(|&(x, y, cost)| {
+        map.is_free((x as i32, y as i32)) && cost.is_some_and(|cost| !(cost.is_finite() && cost > 0.0))
+    });
+    if let Some((x, y, Some(cost))) = wrong {
+        return Err(CostsError::Cost { x, y, cost }.into());
+    }
+    let cost = |x: u32, y: u32| surface.get(x, y).unwrap_or(f64::NAN);
+    Costs::of(&map, cell_size.unwrap_or((1.0, 1.0)), interrupt, cost)
+}
+
+impl Within<'_, Map> {
+    /// [`Map::costs_of`].
+    ///
+    /// # Errors
+    /// As for [`Map::costs_of`], and [`Error::Stopped`].
+    pub fn costs_of(&self, surface: &Surface) -> Result<Costs, Error> {
+        costs_unless(self.of, surface, self.limits.interrupt())
+    }
+}
