@@ -115,6 +115,7 @@ impl Change {
     /// have costs.
     pub fn edit(mut self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
         self.before.map().check_edit(at)?;
+        self.before.check_is_without_elevations()?;
         #[cfg(feature = "costs")]
         if self.surface.is_some() {
             let mut blocked = blocked;
@@ -138,6 +139,7 @@ impl Change {
         cells: impl IntoIterator<Item = (C, bool)>,
     ) -> Result<Self, Error> {
         let cells = self.before.map().check_cells(cells)?;
+        self.before.check_is_without_elevations()?;
         #[cfg(feature = "costs")]
         if self.surface.is_some() {
             return self.block(cells);

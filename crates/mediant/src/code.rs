@@ -2,6 +2,8 @@
 
 #[cfg(feature = "costs")]
 use mediant_costs::CostsError;
+#[cfg(feature = "walking")]
+use mediant_costs::WalkingError;
 use mediant_formats::{IndexError, ReadError};
 use mediant_grid::{GridError, names};
 use mediant_hierarchy::HierarchyError;
@@ -85,8 +87,8 @@ pub enum ErrorCode {
     BrokenPath,
     /// A map with a character that is neither free nor blocked, or with characters that cannot be either.
     MapTile,
-    /// A cost or an elevation of a cell that cannot be one, numbers that do not fit together or on the map, or
-    /// a cell without one.
+    /// A cost or an elevation of a cell that cannot be one, numbers that do not fit together or on the map,
+    /// or a cell without one.
     Cost,
     /// A mistake of a kind that has no name yet.
     Other,
@@ -163,8 +165,10 @@ impl Error {
             Self::Broken(_) => ErrorCode::BrokenPath,
             #[cfg(feature = "costs")]
             Self::Costs(error) => of_costs(error),
+            #[cfg(feature = "walking")]
+            Self::Walking(error) => of_walking(error),
             #[cfg(feature = "rasters")]
-            Self::OtherSize { .. } | Self::Degrees => ErrorCode::Cost,
+            Self::OtherSize { .. } | Self::Degrees | Self::NoCellSize => ErrorCode::Cost,
             Self::Freed { .. } => ErrorCode::Cost,
             Self::Grid(_) => ErrorCode::Other,
         }
@@ -182,6 +186,17 @@ const fn of_costs(error: &CostsError) -> ErrorCode {
         CostsError::Outside { .. } => ErrorCode::EditOutside,
         CostsError::Count { .. } | CostsError::Cost { .. } | CostsError::Range { .. } => ErrorCode::Cost,
         _ => ErrorCode::Other,
+    }
+}
+
+#[cfg(feature = "walking")]
+const fn of_walking(error: &WalkingError) -> ErrorCode {
+    match error {
+        WalkingError::Costs(error) => of_costs(error),
+        WalkingError::Corners => ErrorCode::Motion,
+        WalkingError::Heading => ErrorCode::Mismatch,
+        WalkingError::Table | WalkingError::Pace { .. } => ErrorCode::Number,
+        _ => ErrorCode::Cost,
     }
 }
 
@@ -210,6 +225,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::NotBuilt { .. }
         | SetupError::NoIndex { .. }
         | SetupError::Costs { .. }
+        | SetupError::Walking { .. }
         | SetupError::WithCosts { .. } => ErrorCode::EngineWithout,
     }
 }

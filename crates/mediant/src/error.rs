@@ -7,6 +7,8 @@ use std::{
 
 #[cfg(feature = "costs")]
 use mediant_costs::CostsError;
+#[cfg(feature = "walking")]
+use mediant_costs::WalkingError;
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
 use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
 use mediant_hierarchy::HierarchyError;
@@ -95,7 +97,7 @@ pub enum Error {
     OtherSize {
         /// The columns and the rows of the raster.
         found: (u32, u32),
-        /// Those of the map.
+        /// The columns and the rows of the map.
         expected: (u32, u32),
     },
     /// A raster in longitudes and latitudes.
@@ -105,6 +107,17 @@ pub enum Error {
          first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there"
     )]
     Degrees,
+    /// A raster of elevations that does not state the size of a cell, by which slopes are measured.
+    #[cfg(feature = "rasters")]
+    #[error(
+        "the raster does not state the size of its cells: give it with one, as a GeoTIFF or an ESRI ASCII grid has it"
+    )]
+    NoCellSize,
+    /// Elevations or frictions of cells, or a pace, that cannot be; fields over elevation that do not go
+    /// together.
+    #[cfg(feature = "walking")]
+    #[error(transparent)]
+    Walking(WalkingError),
     /// A cell that is freed in a space with costs, without a cost.
     #[error(
         "cell {cell} is freed, and has no cost: give it one, as in `space.edit_costs([(cell, Some(1.0))])`"

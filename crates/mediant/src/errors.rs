@@ -3,6 +3,8 @@
 
 #[cfg(feature = "costs")]
 pub use mediant_costs::CostsError;
+#[cfg(feature = "walking")]
+pub use mediant_costs::WalkingError;
 #[cfg(feature = "rasters")]
 pub use mediant_formats::SurfaceError;
 pub use mediant_formats::{

@@ -1,9 +1,13 @@
 //! Distance fields in a space.
 
+mod heading;
+
 use std::{fmt, sync::Arc};
 
 #[cfg(feature = "costs")]
 use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph};
+#[cfg(feature = "walking")]
+use mediant_costs::{Heading, WalkingField, WalkingGraph};
 use mediant_grid::{
     Centers, Change as GridChange, Corners, FreeSpace, GridGraph, Identity, Interrupt, MapId, Mismatch,
     Vertex,
@@ -49,6 +53,8 @@ enum Inner {
     AnyAngle(AnyAngleField<Arc<FreeSpace<Corners>>>),
     #[cfg(feature = "costs")]
     Costs(CostField),
+    #[cfg(feature = "walking")]
+    Walking(WalkingField),
 }
 
 /// Makes one field after another in a space, on scratch memory of its own: make one for each thread.
@@ -62,6 +68,8 @@ enum Makers {
     AnyAngle(AnyAngleFields<Arc<FreeSpace<Corners>>>),
     #[cfg(feature = "costs")]
     Costs(Arc<CostGraph>),
+    #[cfg(feature = "walking")]
+    Walking(Arc<WalkingGraph>),
 }
 
 impl Space {
@@ -108,6 +116,10 @@ impl Space {
         #[cfg(feature = "costs")]
         if let Some(surface) = self.surface() {
             return Ok(Fields { inner: Makers::Costs(Arc::clone(&surface.graph)) });
+        }
+        #[cfg(feature = "walking")]
+        if let Some(walk) = self.walk() {
+            return Ok(Fields { inner: Makers::Walking(Arc::clone(&walk.graph)) });
         }
         let inner = match (self.placed(), self.motion().k.finite()) {
             (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
@@ -165,6 +177,10 @@ impl Fields {
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
             #[cfg(feature = "costs")]
             Makers::Costs(graph) => return on_costs(graph, query, interrupt),
+            #[cfg(feature = "walking")]
+            Makers::Walking(graph) => {
+                return heading::over_elevation(graph, Heading::ToSources, query, interrupt);
+            }
         };
         Ok(Field { inner: inner.map_err(told)? })
     }
@@ -227,6 +243,8 @@ macro_rules! of_each {
             Inner::AnyAngle($field) => $value,
             #[cfg(feature = "costs")]
             Inner::Costs($field) => $value,
+            #[cfg(feature = "walking")]
+            Inner::Walking($field) => $value,
         }
     };
 }
@@ -275,6 +293,8 @@ impl Field {
                 let CostFieldQuery { sources, limit, .. } = field.query();
                 return after.field_of(sources, limit, interrupt);
             }
+            #[cfg(feature = "walking")]
+            (Inner::Walking(field), ..) => return heading::again(field, after, interrupt),
             (Inner::Centers(field), Placed::Centers(layers), Some(k)) => {
                 Inner::Centers(repaired_over(field, layers, (k, cells), interrupt)?)
             }
@@ -306,6 +326,8 @@ impl Field {
             Inner::AnyAngle(field) => field.get(at),
             #[cfg(feature = "costs")]
             Inner::Costs(field) => field.get(at),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => field.get(at),
         }
     }
 
@@ -318,6 +340,8 @@ impl Field {
             Inner::AnyAngle(field) => Box::new(field.iter()),
             #[cfg(feature = "costs")]
             Inner::Costs(field) => Box::new(field.iter()),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => Box::new(field.iter()),
         }
     }
 
@@ -331,6 +355,8 @@ impl Field {
             Inner::AnyAngle(field) => field.lengths().to_vec(),
             #[cfg(feature = "costs")]
             Inner::Costs(field) => field.rows().collect(),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => field.rows().collect(),
         }
     }
 
@@ -348,12 +374,17 @@ impl Field {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Mismatch`] for fields of different spaces.
+    /// [`Error::Mismatch`] for fields of different spaces; [`Error::Walking`] for two fields over elevation
+    /// of which none is [from its sources](Space::field_from), or none to them.
     pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, Error> {
         self.identity().check("the field", ("the other field", other.identity()))?;
         #[cfg(feature = "costs")]
         if let (Inner::Costs(field), Inner::Costs(other)) = (&self.inner, &other.inner) {
             return field.corridor(other).map_err(told_on_costs);
+        }
+        #[cfg(feature = "walking")]
+        if let (Inner::Walking(field), Inner::Walking(other)) = (&self.inner, &other.inner) {
+            return Ok(field.corridor(other)?);
         }
         Ok(self.lengths().into_iter().zip(other.lengths()).map(|(one, other)| one + other).collect())
     }
@@ -378,11 +409,20 @@ impl Field {
         Some((dx / length, dy / length))
     }
 
-    /// The shortest path from a vertex to the nearest source; `None` where there is no distance.
+    /// The shortest path from a vertex to the nearest source; `None` where there is no distance. A field over
+    /// elevation that leads [from its sources](Space::field_from) has [`path_to`](Self::path_to) instead.
     #[must_use]
     pub fn path_from(&self, at: impl Into<Vertex>) -> Option<Path> {
         let at = at.into();
-        of_each!(&self.inner, field => field.path_from(at))
+        match &self.inner {
+            Inner::Centers(field) => field.path_from(at),
+            Inner::Corners(field) => field.path_from(at),
+            Inner::AnyAngle(field) => field.path_from(at),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => field.path_from(at),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => heading::along(field, Heading::ToSources, at),
+        }
     }
 
     /// The source to which that path leads. Where cells have costs it is, of several that are equally near,
@@ -399,6 +439,8 @@ impl Field {
                 &[only] => field.cost(at).map(|_| only),
                 sources => sources.get(field.allocation(at)? as usize).copied(),
             },
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => heading::nearest_source(field, at),
         }
     }
 
@@ -435,6 +477,8 @@ impl fmt::Debug for Fields {
             Makers::AnyAngle(fields) => fields.identity(),
             #[cfg(feature = "costs")]
             Makers::Costs(graph) => graph.identity(),
+            #[cfg(feature = "walking")]
+            Makers::Walking(graph) => graph.identity(),
         };
         f.debug_struct("Fields").field("identity", &identity).finish_non_exhaustive()
     }

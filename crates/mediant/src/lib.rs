@@ -143,6 +143,19 @@
 //! # Ok::<(), mediant::Error>(())
 //! ```
 //!
+//! Rasters of numbers are read by `Costs::open`. For a robot [`Map::inflated`] puts costs around obstacles,
+//! as nav2 does, and `Map::walking` walks over elevation, in seconds that differ with the direction.
+//!
+//! ```
+//! use mediant::{Inflation, Map, Motion};
+//!
+//! let map = Map::from_fn(40, 30, |x, y| x == 20 && !(4..7).contains(&y) && y < 16)?;
+//! let inflation = Inflation { resolution: 0.05, inflation_radius: 0.4, ..Inflation::default() };
+//! let space = map.inflated(&inflation)?.costs(3.0)?.space(Motion::centers(4))?;
+//! println!("{}", space.path((5, 5), (35, 5))?.expect("there is a way"));
+//! # Ok::<(), mediant::Error>(())
+//! ```
+//!
 //! # Errors
 //!
 //! Nothing panics on bad input. Every error has a text that says what to do, and a stable
@@ -172,6 +185,8 @@
 //! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
 //! | lead many agents to one goal | [`Field`] |
 //! | find cheapest paths over cells with costs, cost distance, corridors | [`Map::costs`], [`Field::corridor`] |
+//! | keep off walls by costs, as nav2 does | [`Map::inflated`], [`Costmap`] |
+//! | walk over elevation, from places or to them | `Map::walking`, [`Space::field_from`] |
 //! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Square`], [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`], [`Change::check`] |
@@ -185,10 +200,12 @@
 //!   Anya.
 //! - `clock`, on by default: [`Limits::time`] reads the system's clock, in this one place.
 //! - `costs`, on by default: costs of cells, [`Map::costs`], and robots' costmaps, [`Costmap`].
-//! - `rasters`, on by default: costs from rasters of numbers, `Costs::open`; with `geotiff` also from GeoTIFFs.
+//! - `rasters`, on by default: costs from rasters of numbers, `Costs::open`.
+//! - `geotiff`: GeoTIFFs, too.
 //! - `png`, on by default: maps that are PNG pictures.
 //! - `publications`: options that only reproduce publications.
 //! - `parallel`: subgoals are prepared, and tables filled, on all cores.
+//! - `walking`, on by default: walking over elevation, `Map::walking`.
 //! - `serde`: vertices, points, rectangles, motion, ends, paths and setups are read and written.
 //! - `trace`: searches are written for the Posthoc visualizer, by `Tracer`.
 //!
@@ -258,6 +275,9 @@ mod table;
 mod text;
 #[cfg(feature = "trace")]
 mod trace;
+mod walk;
+#[cfg(feature = "walking")]
+mod walking;
 mod within;
 
 pub use agent::{Disc, Square};
@@ -280,6 +300,8 @@ pub use limits::Limits;
 pub use map::Map;
 #[cfg(feature = "costs")]
 pub use mediant_costs::{Inflation, Traversal};
+#[cfg(feature = "walking")]
+pub use mediant_costs::{Langmuir, Pace};
 #[doc(hidden)]
 pub use mediant_grid::names;
 pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Point, Rectangle, Rules, Vertex};
@@ -294,4 +316,6 @@ pub use replan::Replanned;
 pub use setup::Setup;
 pub use space::Space;
 pub use table::Table;
+#[cfg(feature = "walking")]
+pub use walking::Walking;
 pub use within::Within;

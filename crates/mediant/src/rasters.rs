@@ -149,3 +149,91 @@ impl Within<'_, Map> {
         costs_unless(self.of, surface, self.limits.interrupt())
     }
 }
+
+#[cfg(feature = "walking")]
+mod walking {
+    use std::path::Path as FilePath;
+
+    use mediant_costs::Pace;
+    use mediant_formats::{Georeference, Surface, SurfaceOptions, read_surface};
+    use mediant_grid::Interrupt;
+
+    use crate::{error::Error, map::Map, never::NEVER, walking::Walking, within::Within};
+
+    impl Walking {
+        /// Reads a raster of elevations, such as a digital elevation model: any file that
+        /// [`Costs::open`](crate::Costs::open) reads. Cells without data are blocked. Elevations are in the
+        /// unit of the size of a cell, which the file has to state.
+        ///
+        /// ```no_run
+        /// use mediant::{K, Motion, Pace, Walking};
+        ///
+        /// let (walking, place) = Walking::open("dem.tif", &Pace::Tobler)?;
+        /// let space = walking.space(Motion::centers(K::N16))?;
+        /// // All that is an hour away.
+        /// let reached = space.field_from_within([(100, 200)], 3600.0)?;
+        /// # let _ = (reached, place);
+        /// # Ok::<(), mediant::Error>(())
+        /// ```
+        ///
+        /// # Errors
+        /// [`Error::Read`] for a file that is missing, cannot be read, or is no such raster;
+        /// [`Error::InFile`] with the errors of [`Map::walking_of`] inside.
+        pub fn open(path: impl AsRef<FilePath>, pace: &Pace) -> Result<(Self, Georeference), Error> {
+            let path = path.as_ref();
+            let surface = read_surface(path, &SurfaceOptions::default())?;
+            let walking = Map::with_data(&surface).and_then(|map| map.walking_of(&surface, None, pace));
+            Ok((walking.map_err(|error| error.in_file(path))?, surface.georeference().clone()))
+        }
+    }
+
+    impl Map {
+        /// This map with the elevations of a raster of the same size, and with the frictions of another one,
+        /// if there is one. Cells are blocked that are blocked here or have no data there.
+        ///
+        /// # Errors
+        /// As for [`Map::walking_with_friction`] and [`Map::costs_of`]; [`Error::NoCellSize`] where the
+        /// raster of elevations does not state the size of a cell.
+        pub fn walking_of(
+            &self,
+            elevation: &Surface,
+            friction: Option<&Surface>,
+            pace: &Pace,
+        ) -> Result<Walking, Error> {
+            walking_unless(self, elevation, friction, pace, &NEVER)
+        }
+    }
+
+    fn walking_unless(
+        map: &Map,
+        elevation: &Surface,
+        friction: Option<&Surface>,
+        pace: &Pace,
+        interrupt: &Interrupt,
+    ) -> Result<Walking, Error> {
+        let (mut map, cell_size) = map.on_surface(elevation)?;
+        let cell_size = cell_size.ok_or(Error::NoCellSize)?;
+        if let Some(friction) = friction {
+            map = map.on_surface(friction)?.0;
+        }
+        let number = |surface: &Surface, x, y| surface.get(x, y).unwrap_or(f64::NAN);
+        let friction = friction.map(|friction| move |x: u32, y: u32| number(friction, x, y));
+        let height = |x: u32, y: u32| number(elevation, x, y);
+        Walking::of(&map, (cell_size, pace), interrupt, height, friction)
+    }
+
+    impl Within<'_, Map> {
+        /// [`Map::walking_of`].
+        ///
+        /// # Errors
+        /// As for [`Map::walking_of`], and [`Error::Stopped`].
+        pub fn walking_of(
+            &self,
+            elevation: &Surface,
+            friction: Option<&Surface>,
+            pace: &Pace,
+        ) -> Result<Walking, Error> {
+            walking_unless(self.of, elevation, friction, pace, self.limits.interrupt())
+        }
+    }
+}

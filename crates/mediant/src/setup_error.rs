@@ -139,6 +139,12 @@ pub enum SetupError {
         /// The engines that know costs.
         others: String,
     },
+    /// An engine that does not walk over elevation.
+    #[error("{engine} does not walk over elevation: choose astar or dijkstra")]
+    Walking {
+        /// The engine.
+        engine: Engine,
+    },
     /// A k over which no engine searches on costs of cells.
     #[error(
         "on costs of cells no engine searches k = {k}: choose a k from 2 to {max} (4 to {} neighbors)",
@@ -187,6 +193,9 @@ impl SetupError {
         Self::WithCosts { what: "widest path", instead: "raise the costs of cells near walls" };
     pub(crate) const INDEX_ON_COSTS: Self =
         Self::WithCosts { what: "saved index", instead: "prepare it, which takes next to nothing" };
+
+    pub(crate) const EDITS_OVER_ELEVATION: Self =
+        Self::WithCosts { what: "edit of elevations", instead: "make the map to walk on anew" };
 
     /// The error for an engine that knows no costs.
     pub(crate) fn on_costs(engine: Engine) -> Self {

@@ -16,7 +16,7 @@ use mediant_subgoal::SubgoalPlacement;
 use crate::costs::Costs;
 use crate::{
     configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, never::NEVER,
-    setup::Setup, setup_error::SetupError, shared_rules::Shared, surface::Surface,
+    setup::Setup, setup_error::SetupError, shared_rules::Shared, surface::Surface, walk::Walk,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -46,6 +46,8 @@ struct Inner {
     placed: Placed,
     /// Where cells have costs.
     surface: Option<Surface>,
+    /// Where cells have elevations.
+    walk: Option<Walk>,
 }
 
 /// The free space and the grid graph, by placement.
@@ -151,7 +153,7 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
-        Self::searched((map, None), motion, interrupt)
+        Self::searched(map, (None, None), motion, interrupt)
     }
 
     /// Costs with rules of motion and a k.
@@ -163,7 +165,7 @@ impl Space {
         let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
         let graph = Arc::new(CostGraph::new(Arc::clone(costs.surface()), motion.rules, k)?);
         let surface = Surface { costs: costs.clone(), graph };
-        Self::searched((costs.map(), Some(surface)), motion, interrupt)
+        Self::searched(costs.map(), (Some(surface), None), motion, interrupt)
     }
 
     /// The space after a change of its map, with the costs after it if its cells have costs.
@@ -174,12 +176,13 @@ impl Space {
             Placed::Corners(layers) => Placed::Corners(layers.follow(change)),
         };
         let map = Arc::clone(change.after()).into();
-        Self { inner: Arc::new(Inner { map, motion, metric, placed, surface }) }
+        Self { inner: Arc::new(Inner { map, motion, metric, placed, surface, walk: None }) }
     }
 
     /// A map with a motion that some engine searches.
-    fn searched(
-        (map, surface): (&Map, Option<Surface>),
+    pub(crate) fn searched(
+        map: &Map,
+        (surface, walk): (Option<Surface>, Option<Walk>),
         motion: Motion,
         interrupt: &Interrupt,
     ) -> Result<Self, Error> {
@@ -190,7 +193,7 @@ impl Space {
         };
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
-        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed, surface }) })
+        Ok(Self { inner: Arc::new(Inner { map, motion, metric, placed, surface, walk }) })
     }
 
     /// The map.
@@ -212,11 +215,11 @@ impl Space {
         self.inner.motion
     }
 
-    /// The identity: its map, or the costs of its cells, rules and k.
+    /// The identity: its map, or the costs or elevations of its cells, rules and k.
     #[must_use]
     pub fn identity(&self) -> Identity {
-        if let Some(surface) = self.surface() {
-            return surface.identity();
+        if let Some(of) = self.weighed() {
+            return of.identity();
         }
         let Motion { k, rules, .. } = self.motion();
         Identity { map: Some(self.map().id()), rules, k: Some(k) }
@@ -287,7 +290,9 @@ impl Space {
             return Err(SetupError::without_distances(engine).into());
         }
         match (engine, self.placed(), motion.k.finite()) {
-            (Engine::Dijkstra, ..) => Ok(self.field_of(&[start], f64::INFINITY, interrupt)?.iter().collect()),
+            (Engine::Dijkstra, ..) => {
+                Ok(self.field_from_of(&[start], f64::INFINITY, interrupt)?.iter().collect())
+            }
             (Engine::Wavefront, Placed::Centers(layers), Some(k)) => {
                 moves(layers.graph(k)?, start, interrupt)
             }
@@ -324,12 +329,17 @@ impl Space {
             Placed::Centers(layers) => layers.memory_bytes(),
             Placed::Corners(layers) => layers.memory_bytes(),
         };
-        (bytes + self.surface().map_or(0, |surface| surface.memory_bytes())) as u64
+        (bytes + self.weighed().map_or(0, |of| of.memory_bytes())) as u64
     }
 
     /// The costs of its cells with their search graph.
     pub(crate) fn surface(&self) -> Option<&Surface> {
         self.inner.surface.as_ref()
+    }
+
+    /// The elevations of its cells with their search graph.
+    pub(crate) fn walk(&self) -> Option<&Walk> {
+        self.inner.walk.as_ref()
     }
 
     /// The length of a displacement where no obstacle is in the way: that of its k.

@@ -1,8 +1,8 @@
-//! The cost surface of a space whose cells have costs.
+//! The costs of paths in a space whose cells have costs or elevations.
 
 use std::sync::Arc;
 
-use mediant_grid::Interrupt;
+use mediant_grid::{Identity, Interrupt};
 use mediant_search::{Path, PathCosts};
 
 #[cfg(not(feature = "costs"))]
@@ -10,6 +10,18 @@ pub(crate) use self::absent::Surface;
 #[cfg(feature = "costs")]
 pub(crate) use self::given::Surface;
 use crate::{error::Error, motion::Motion, setup::Setup, setup_error::SetupError, space::Space};
+
+/// Numbers of cells by which paths cost something else than their length.
+pub(crate) trait Weighed {
+    fn identity(&self) -> Identity;
+
+    fn memory_bytes(&self) -> usize;
+
+    fn path_costs(&self) -> Arc<dyn PathCosts>;
+
+    /// The cost of a path; `None` if one of its moves is not legal or none of N(k).
+    fn cost(&self, path: &Path) -> Option<f64>;
+}
 
 #[cfg(feature = "costs")]
 mod given {
@@ -19,6 +31,7 @@ mod given {
     use mediant_grid::{Identity, Rectangle};
     use mediant_search::{Path, PathCosts};
 
+    use super::Weighed;
     use crate::{costs::Costs, error::Error};
 
     /// Costs of cells, and their search graph.
@@ -40,20 +53,22 @@ mod given {
             let graph = Arc::new(self.graph.after(Arc::clone(costs.surface()), &cells)?);
             Ok(Self { costs, graph })
         }
+    }
 
-        pub(crate) fn identity(&self) -> Identity {
+    impl Weighed for Surface {
+        fn identity(&self) -> Identity {
             self.graph.identity()
         }
 
-        pub(crate) fn memory_bytes(&self) -> usize {
+        fn memory_bytes(&self) -> usize {
             self.graph.map().memory_bytes() + self.graph.memory_bytes()
         }
 
-        pub(crate) fn path_costs(&self) -> Arc<dyn PathCosts> {
+        fn path_costs(&self) -> Arc<dyn PathCosts> {
             Arc::<CostGraph>::clone(&self.graph)
         }
 
-        pub(crate) fn cost(&self, path: &Path) -> Option<f64> {
+        fn cost(&self, path: &Path) -> Option<f64> {
             self.graph.path_cost(path).map(|cost| self.graph.to_f64(cost))
         }
     }
@@ -66,33 +81,41 @@ mod absent {
     use mediant_grid::Identity;
     use mediant_search::{Path, PathCosts};
 
+    use super::Weighed;
+
     /// Without the feature `costs` no space has a surface.
     #[derive(Clone, Debug)]
     pub(crate) enum Surface {}
 
-    impl Surface {
-        pub(crate) fn identity(&self) -> Identity {
+    impl Weighed for Surface {
+        fn identity(&self) -> Identity {
             match *self {}
         }
 
-        pub(crate) fn memory_bytes(&self) -> usize {
+        fn memory_bytes(&self) -> usize {
             match *self {}
         }
 
-        pub(crate) fn path_costs(&self) -> Arc<dyn PathCosts> {
+        fn path_costs(&self) -> Arc<dyn PathCosts> {
             match *self {}
         }
 
-        pub(crate) fn cost(&self, _: &Path) -> Option<f64> {
+        fn cost(&self, _: &Path) -> Option<f64> {
             match *self {}
         }
     }
 }
 
 impl Space {
-    /// Whether its cells have costs.
+    /// Whether its paths have costs: its cells have costs or elevations.
     pub(crate) fn has_costs(&self) -> bool {
-        self.surface().is_some()
+        self.weighed().is_some()
+    }
+
+    /// The costs of its paths, where they are not lengths.
+    pub(crate) fn weighed(&self) -> Option<&dyn Weighed> {
+        let walk = self.walk().map(|walk| walk as &dyn Weighed);
+        self.surface().map(|surface| surface as &dyn Weighed).or(walk)
     }
 
     /// The cost of a path over N(k) in this space: its length, but where cells have costs the cost by these.
@@ -101,17 +124,17 @@ impl Space {
     /// A [rest](Path::rest) of a path has to be measured so, and so has a path after an edit of costs.
     #[must_use]
     pub fn cost(&self, path: &Path) -> Option<f64> {
-        match self.surface() {
-            Some(surface) => surface.cost(path),
+        match self.weighed() {
+            Some(of) => of.cost(path),
             None => Some(path.length()),
         }
     }
 
     /// A path with its cost in this space. One without a cost costs more than any other.
     pub(crate) fn measured(&self, path: Path) -> Path {
-        match self.surface() {
-            Some(surface) => {
-                let cost = surface.cost(&path).unwrap_or(f64::INFINITY);
+        match self.weighed() {
+            Some(of) => {
+                let cost = of.cost(&path).unwrap_or(f64::INFINITY);
                 Path::with_cost(path.into_waypoints(), cost)
             }
             None => path,
@@ -120,7 +143,7 @@ impl Space {
 
     /// The costs of its paths, where they are not lengths.
     pub(crate) fn path_costs(&self) -> Option<Arc<dyn PathCosts>> {
-        self.surface().map(|surface| surface.path_costs())
+        self.weighed().map(|of| of.path_costs())
     }
 
     /// A cost of a search in this space as a number.
@@ -143,6 +166,11 @@ impl Space {
         setup.check()
     }
 
+    /// Refuses edits where cells have elevations.
+    pub(crate) fn check_is_without_elevations(&self) -> Result<(), SetupError> {
+        if self.walk().is_some() { Err(SetupError::EDITS_OVER_ELEVATION) } else { Ok(()) }
+    }
+
     /// Refuses what there is not on costs of cells.
     pub(crate) fn check_is_without_costs(&self, refused: SetupError) -> Result<(), SetupError> {
         if self.has_costs() { Err(refused) } else { Ok(()) }
@@ -153,6 +181,10 @@ impl Space {
         #[cfg(feature = "costs")]
         if let Some(surface) = self.surface() {
             return Self::of_costs(&surface.costs, motion, interrupt);
+        }
+        #[cfg(feature = "walking")]
+        if let Some(walking) = self.walking() {
+            return Self::of_walking(walking, motion, interrupt);
         }
         Self::new(self.map(), motion, interrupt)
     }

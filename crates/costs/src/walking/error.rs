@@ -14,6 +14,16 @@ pub enum WalkingError {
     /// The ends or the limit of a field, or two fields that do not belong together.
     #[error(transparent)]
     Field(#[from] CostFieldError),
+    /// Another number of elevations or frictions than cells.
+    #[error("there are {found} {what} for {expected} cells: give one for each cell, row by row")]
+    Count {
+        /// `elevations` or `frictions`.
+        what: &'static str,
+        /// Their number.
+        found: usize,
+        /// The number of cells.
+        expected: u64,
+    },
     /// An elevation that is infinite or not a number.
     #[error(
         "the elevation of cell ({x}, {y}) is {elevation}: it must be a number; a cell without one is marked as \

@@ -62,6 +62,7 @@ pub struct WalkingField {
     /// By position: the number of the nearest source.
     allocation: Option<Vec<u32>>,
     sources: Box<[Vertex]>,
+    limit: f64,
     queue_bytes: usize,
 }
 
@@ -113,7 +114,15 @@ impl WalkingField {
         };
         let Labels { mut costs, sources: allocation, queue_bytes } = run(&graph, heading, search)?;
         costs.shrink_to_fit();
-        Ok(Self { graph, heading, costs, allocation, sources: query.sources.into(), queue_bytes })
+        Ok(Self {
+            graph,
+            heading,
+            costs,
+            allocation,
+            sources: query.sources.into(),
+            limit: query.limit,
+            queue_bytes,
+        })
     }
 
     /// The memory that a field of a graph takes, in bytes, without the queue of its search.
@@ -153,6 +162,37 @@ impl WalkingField {
         &self.sources
     }
 
+    /// Its query: the same field can be made on another map.
+    #[must_use]
+    pub fn query(&self) -> CostFieldQuery<'_> {
+        let Self { sources, limit, allocation, .. } = self;
+        let query = CostFieldQuery::new(sources).within(*limit);
+        if allocation.is_some() { query.with_allocation() } else { query }
+    }
+
+    /// The number of vertices in a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.graph.size().0
+    }
+
+    /// The number of rows of vertices.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.graph.size().1
+    }
+
+    /// The vertices in the field, row by row, with their costs as numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (Vertex, f64)> {
+        self.vertices().filter_map(|at| Some((at, self.get(at)?)))
+    }
+
+    /// The costs of all vertices as numbers, row by row; infinity where a vertex is not in the field.
+    /// [`into_rows`](Self::into_rows) has them without a second array.
+    pub fn rows(&self) -> impl Iterator<Item = f64> {
+        self.vertices().map(|at| self.get(at).unwrap_or(f64::INFINITY))
+    }
+
     /// The position of a vertex that is in the field.
     fn place(&self, at: Vertex) -> Option<usize> {
         self.graph.position(at).filter(|&at| self.is_in(at))
@@ -188,6 +228,12 @@ impl WalkingField {
     #[must_use]
     pub fn direction(&self, at: Vertex) -> Option<Vector> {
         self.towards(self.place(at)?).map(|(v, _)| v)
+    }
+
+    /// The vertex to which [`direction`](Self::direction) leads.
+    #[must_use]
+    pub fn next(&self, at: Vertex) -> Option<Vertex> {
+        Some(at + self.direction(at)?)
     }
 
     /// The move from a position towards its source, and the position to which it leads.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant_grid::{CornerRule, Identity, Rules, Vertex};
 use mediant_moves::{Cost, CostTable, FiniteK, Vector};
-use mediant_search::{End, Path, QueryError};
+use mediant_search::{End, Path, PathCosts, QueryError};
 
 use super::{
     Heading, WalkingError,
@@ -136,6 +136,9 @@ impl WalkingGraph {
     /// `None` if a move is not legal.
     #[must_use]
     pub fn path_cost(&self, path: &Path) -> Option<Cost> {
+        if !path.waypoints().iter().all(|&at| self.position(at).is_some()) {
+            return None;
+        }
         steps(path).try_fold(Cost::ZERO, |cost, (from, v)| Some(cost + self.move_cost(from, v)?))
     }
 
@@ -200,6 +203,20 @@ impl WalkingGraph {
     pub(super) fn vertex(&self, at: usize) -> Vertex {
         let (x, y) = self.map.layout().cell(at);
         Vertex::new(x, y)
+    }
+}
+
+impl PathCosts for WalkingGraph {
+    fn least(&self, v: Vector) -> Cost {
+        self.least_cost(v)
+    }
+
+    fn cost(&self, path: &Path) -> Cost {
+        self.path_cost(path).unwrap_or(Cost::MAX)
+    }
+
+    fn unit(&self) -> f64 {
+        self.map.unit()
     }
 }
 

@@ -1,5 +1,9 @@
 //! The pace: how long a unit of length takes, by the slope.
 
+use std::str::FromStr;
+
+use mediant_grid::names::{UnknownName, means};
+
 use super::WalkingError;
 
 /// The time that a unit of horizontal length takes, by the slope: the rise over the horizontal length, below
@@ -60,6 +64,29 @@ const STEEPEST: f64 = 3.0;
 const FASTEST: f64 = -0.05;
 /// Tobler's function is kept at multiples of 1 over this, and linear between: by 1.5·10⁻⁶ too slow at most.
 const STEPS: f64 = 1024.0;
+
+/// The paces that have a name.
+const NAMES: [&str; 2] = ["tobler", "langmuir"];
+
+/// `tobler`, or `langmuir` with its usual numbers.
+///
+/// ```
+/// use mediant_costs::Pace;
+/// assert_eq!("Tobler".parse(), Ok(Pace::Tobler));
+/// let error = "naismith".parse::<Pace>().unwrap_err();
+/// assert_eq!(error.to_string(), "expected one of tobler, langmuir, found `naismith`");
+/// ```
+impl FromStr for Pace {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, UnknownName> {
+        match NAMES.iter().position(|name| means(text, name)) {
+            Some(0) => Ok(Self::Tobler),
+            Some(_) => Ok(Self::Langmuir(Langmuir::default())),
+            None => Err(UnknownName { found: text.to_owned(), known: NAMES.join(", ") }),
+        }
+    }
+}
 
 impl Pace {
     /// The time of a unit of horizontal length on a slope. Maps have it as integers, and Tobler's function at

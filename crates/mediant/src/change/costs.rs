@@ -29,6 +29,7 @@ impl Change {
     }
 
     pub(super) fn with_edits(mut self, cells: Edits) -> Result<Self, Error> {
+        self.before.check_is_without_elevations()?;
         let surface = self.surface.as_ref().ok_or(SetupError::WithoutCosts)?;
         if surface.costs.has(&cells) {
             return Ok(self);

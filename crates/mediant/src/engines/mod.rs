@@ -20,6 +20,8 @@ mod source;
 mod subgoal_theta;
 mod subgoals;
 mod theta;
+#[cfg(feature = "walking")]
+mod walking;
 
 use std::{any::Any, num::NonZeroU32, sync::Arc};
 
@@ -190,6 +192,10 @@ pub(crate) fn prepare(
     #[cfg(feature = "costs")]
     if let Some(surface) = space.surface() {
         return shared(costs::CostIndex::new(space, surface, setup.engine));
+    }
+    #[cfg(feature = "walking")]
+    if let Some(walk) = space.walk() {
+        return shared(walking::WalkingIndex::new(space, walk, setup.engine));
     }
     let (k, engine) = (setup.finite_k(), setup.engine.kind());
     match setup.engine {

@@ -26,6 +26,7 @@ mod serialized;
 mod subgoals;
 mod table;
 mod tiles;
+mod walking;
 
 use mediant::{
     Error, Index, Map, Planner, Setup,
