@@ -52,24 +52,22 @@ pub(crate) enum Failure {
     Surface(SurfaceError),
     #[error("{option} does not go with costs: leave it out, or leave the costs out")]
     NotOnCosts { option: &'static str },
+    #[error("{}: {source}", path.display())]
+    Numbers { path: PathBuf, source: Box<mediant::Error> },
+    #[error("{option} {} for {map}, whose cells have numbers of their own: leave one of the two out", path.display())]
+    TwoNumbers { option: &'static str, path: PathBuf, map: String },
     #[error(
-        "{}: {columns} columns and {rows} rows of costs, and {map} has {}: give one cost for each cell",
-        path.display(), shape.0.to_string() + " and " + &shape.1.to_string()
+        "the cells of {map} have no numbers: give --elevation a FILE, or a raster of elevations as the map"
     )]
-    OtherSize { path: PathBuf, columns: u32, rows: u32, map: String, shape: (u32, u32) },
-    #[error("--costs {} for {map}, whose cells have costs of their own: leave one of the two out", path.display())]
-    TwoCosts { path: PathBuf, map: String },
+    NoElevation { map: String },
+    #[error("{}: it does not say how large a cell is: give --cell-size METERS", path.display())]
+    NoCellSize { path: PathBuf },
+    #[error("{}: it says how large a cell is: leave --cell-size out", path.display())]
+    HasCellSize { path: PathBuf },
     #[error(
-        "{}: the coordinates are degrees, and the width of a cell differs from row to row: project it to meters \
-         first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there",
-        path.display()
+        "the cells of {map} have no costs: give --costs FILE or --inflation-radius R, or choose a format for maps"
     )]
-    Degrees { path: PathBuf },
-    #[error(
-        "{}: the cost of cell ({x}, {y}) is {cost}: it must be a positive number; mark walls as cells without \
-         data, or as blocked on the map", path.display()
-    )]
-    NoCost { path: PathBuf, x: usize, y: usize, cost: f64 },
+    NoNumbers { map: String },
     #[error(
         "{}: its paths are on the grounds of a MovingAI map, and {map} has none: give the map that they were \
          made on", path.display()

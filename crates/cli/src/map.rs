@@ -1,5 +1,7 @@
 //! Maps and scenarios that the arguments name: from files, or bundled.
 
+pub(crate) mod numbers;
+
 use std::{
     fs::{self, File},
     io::Read,
@@ -8,17 +10,15 @@ use std::{
 };
 
 use mediant::{
-    Costs, Disc, Motion, PlacementKind, Space, Vertex,
+    Costs, Disc, Motion, PlacementKind, Vertex, Walking,
     files::{Tiles, WorldFrame},
     grid::Grid,
 };
-use mediant_formats::{
-    DynamicScenario, Georeference, Ground, MapFile, ReadError, Scenario, Surface, SurfaceFormat,
-    SurfaceOptions, read_map, read_surface,
-};
+use mediant_formats::{DynamicScenario, Georeference, Ground, MapFile, ReadError, Scenario, read_map};
 
+use self::numbers::{Raster, is_surface};
 use crate::{
-    args::{CostsArgs, MapArgs, Place},
+    args::{MapArgs, Place},
     builtin::Builtin,
     check::file::{bytes, shown},
     draw::theme::Theme,
@@ -48,6 +48,10 @@ pub(crate) struct NamedMap {
     pub(crate) disc: Option<Disc>,
     /// The costs of its cells, if they have any.
     pub(crate) costs: Option<Costs>,
+    /// Their elevations and the pace, if they have any.
+    pub(crate) walking: Option<Walking>,
+    /// The raster that is its file, as long as its numbers are nothing.
+    pub(crate) raster: Option<Raster>,
     /// Where the raster of these is on the earth, if its file says so.
     pub(crate) georeference: Option<Georeference>,
     /// The scenario, if the map is that of a scenario of a map that changes.
@@ -57,11 +61,21 @@ pub(crate) struct NamedMap {
 impl NamedMap {
     /// Reads a map file, or parses the bundled map that `builtin:NAME` names.
     pub(crate) fn load(args: &MapArgs) -> Result<Self, Failure> {
-        Ok(Self { tiles: None, ..Self::load_with_tiles(args)? })
+        Ok(Self::load_with_tiles(args)?.without_tiles())
+    }
+
+    /// The map without its characters.
+    pub(crate) fn without_tiles(self) -> Self {
+        Self { tiles: None, ..self }
     }
 
     /// [`load`](Self::load), with the characters of a MovingAI map, to draw or to write them.
     pub(crate) fn load_with_tiles(args: &MapArgs) -> Result<Self, Failure> {
+        Self::load_ground(args, None)?.with_own_costs()
+    }
+
+    /// The same before it is known what the numbers of a raster are, of which one band is read.
+    pub(crate) fn load_ground(args: &MapArgs, band: Option<u16>) -> Result<Self, Failure> {
         let options = args.options()?;
         if let Some(builtin) = Builtin::of_path(&args.map) {
             let map = Self::bundled(builtin?, options.tiles)?;
@@ -69,9 +83,7 @@ impl NamedMap {
         }
         let name = file_name(&args.map);
         if is_surface(&args.map) {
-            let surface = read(&args.map, None)?;
-            let map = Self::new(name, Arc::new(with_data(&surface)?), None, Theme::Plain);
-            return map.with_surface(&args.map, &surface);
+            return Self::of_raster(name, &args.map, band);
         }
         let (grid, tiles, place, scenario) = match changing(&args.map)? {
             Some(scenario) => (scenario.grid(), None, None, Some(Arc::new(scenario))),
@@ -98,82 +110,27 @@ impl NamedMap {
     }
 
     fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
-        let ground = Arc::clone(&grid);
-        let (frame, place, disc, costs, georeference, scenario) = (None, None, None, None, None, None);
+        Self { tiles, theme, ..Self::plain(name, &grid) }
+    }
+
+    /// A map of which nothing more is known.
+    fn plain(name: String, grid: &Arc<Grid>) -> Self {
         Self {
             name,
-            grid,
-            ground,
+            grid: Arc::clone(grid),
+            ground: Arc::clone(grid),
             radius: 0.0,
-            theme,
-            frame,
-            place,
-            tiles,
-            disc,
-            costs,
-            georeference,
-            scenario,
+            theme: Theme::Plain,
+            frame: None,
+            place: None,
+            tiles: None,
+            disc: None,
+            costs: None,
+            walking: None,
+            raster: None,
+            georeference: None,
+            scenario: None,
         }
-    }
-
-    /// The map with the costs that the arguments name, if they do.
-    pub(crate) fn with_costs(self, args: &CostsArgs) -> Result<Self, Failure> {
-        let Some(path) = &args.costs else { return Ok(self) };
-        if self.costs.is_some() {
-            return Err(Failure::TwoCosts { path: path.clone(), map: self.name });
-        }
-        let surface = read(path, args.band)?;
-        let (columns, rows) = (surface.width(), surface.height());
-        let shape = (self.grid.width(), self.grid.height());
-        if (columns, rows) != shape {
-            return Err(Failure::OtherSize { path: path.clone(), columns, rows, map: self.name, shape });
-        }
-        let data = with_data(&surface)?;
-        let is_blocked =
-            |x: u32, y: u32| self.grid.is_blocked(x as i32, y as i32) || data.is_blocked(x as i32, y as i32);
-        let grid = Grid::from_fn(columns, rows, is_blocked).map_err(mediant::Error::from)?;
-        Self { grid: Arc::new(grid), ..self }.with_surface(path, &surface)
-    }
-
-    /// The map with the costs of a raster.
-    fn with_surface(self, path: &Path, surface: &Surface) -> Result<Self, Failure> {
-        if self.disc.is_some() {
-            return Err(Failure::NotOnCosts { option: "--radius" });
-        }
-        if surface.is_in_degrees() {
-            return Err(Failure::Degrees { path: path.to_owned() });
-        }
-        let columns = surface.width() as usize;
-        let is_free = |at: usize| self.grid.is_free((at % columns) as i32, (at / columns) as i32);
-        let wrong = surface
-            .iter()
-            .enumerate()
-            .find(|&(at, cost)| is_free(at) && cost.is_some_and(|cost| !(cost.is_finite() && cost > 0.0)));
-        if let Some((at, Some(cost))) = wrong {
-            let (x, y) = (at % columns, at / columns);
-            return Err(Failure::NoCost { path: path.to_owned(), x, y, cost });
-        }
-        let map = self.to_library();
-        let costs = map.costs(surface.iter().map(|cost| cost.unwrap_or(f64::NAN)))?;
-        let costs = match surface.cell_size() {
-            Some((x, y)) if (x, y) != (1.0, 1.0) => costs.with_cell_size(x, y)?,
-            _ => costs,
-        };
-        let georeference = Some(surface.georeference().clone());
-        Ok(Self { ground: Arc::clone(&self.grid), costs: Some(costs), georeference, ..self })
-    }
-
-    /// The search space of the map, or of its costs.
-    pub(crate) fn space(&self, motion: Motion) -> Result<Space, mediant::Error> {
-        match &self.costs {
-            Some(costs) => costs.space(motion),
-            None => self.to_library().space(motion),
-        }
-    }
-
-    /// Refuses an option that has no meaning on costs, if it was given.
-    pub(crate) fn refuse_on_costs(&self, option: &'static str, is_given: bool) -> Result<(), Failure> {
-        if self.costs.is_some() && is_given { Err(Failure::NotOnCosts { option }) } else { Ok(()) }
     }
 
     /// Whether it is a MovingAI map that was loaded [with its characters](Self::load_with_tiles).
@@ -293,30 +250,6 @@ impl NamedMap {
         });
         Some(moved.fold(0.0, f64::max))
     }
-}
-
-/// Whether a map's file is a raster of numbers, which are costs. A picture is a map of shades.
-fn is_surface(path: &Path) -> bool {
-    let mut first = Vec::new();
-    // Opening a pipe may never return.
-    let is_file = fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
-    let is_read = is_file && File::open(path).and_then(|file| file.take(64).read_to_end(&mut first)).is_ok();
-    let is_kind =
-        |kind| matches!(kind, SurfaceFormat::Npy | SurfaceFormat::EsriAscii | SurfaceFormat::GeoTiff);
-    is_read && SurfaceFormat::of(&first).is_some_and(is_kind)
-}
-
-/// Reads a raster of numbers.
-fn read(path: &Path, band: Option<u16>) -> Result<Surface, Failure> {
-    let options = SurfaceOptions { band, ..SurfaceOptions::default() };
-    Ok(read_surface(path, &options)?)
-}
-
-/// The map on which the cells with a number are free.
-fn with_data(surface: &Surface) -> Result<Grid, Failure> {
-    let mut has_data = surface.iter().map(|number| number.is_some());
-    let grid = Grid::from_fn(surface.width(), surface.height(), |_, _| !has_data.next().unwrap_or(false));
-    Ok(grid.map_err(mediant::Error::from)?)
 }
 
 /// Reads a scenario file, or parses that of the bundled map that `builtin:NAME` names. Returns the name that

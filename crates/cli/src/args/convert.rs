@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    costs::CostsArgs,
     flags::{Flags, MOTION},
     map::MapArgs,
     value::{parse_amount, parse_pose},
@@ -20,7 +21,10 @@ use super::{
 pub(crate) struct ConvertArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
-    /// The file to write: .map (MovingAI), .png, .pgm, .pbm, or .yaml (ROS, with the .pgm beside it)
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
+    /// The file to write: .map (MovingAI), .png, .pgm, .pbm, or .yaml (ROS, with the .pgm beside it); for
+    /// numbers .npy, .asc, .tif, or .pgm and .png of 16 bits
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: PathBuf,
     /// Of a ROS map to write, the side of a cell in meters; by default that of the map that is read
@@ -48,6 +52,11 @@ map are blocked, or free with --unknown-free. From .map to .map the characters o
 With --radius the map of that agent is written: a cell is blocked where the disc does not fit. How closely \
 that is measured depends on how it will move, so say --k, --placement and --corners or --gap as for run.
 
+A raster of numbers (NPY, ESRI ASCII grid, GeoTIFF; to .npy, .asc and .tif also PGM and PNG of gray) keeps its \
+numbers, its cells without data, and its place in the world, as far as the format has these. In PGM and PNG \
+numbers are whole ones of 0 to 65,535, and cells without data are 0; in NPY they are NaN. With --costs or --inflation-radius a \
+map's costs are written: a number for each free cell.
+
 Files are replaced, but never one from which the map is read.
 
 Examples:
@@ -55,4 +64,6 @@ Examples:
   mediant convert arena.map -o arena.yaml --resolution 0.05 --origin -1,-2,0
   mediant convert depot.yaml -o depot.map --threshold 0.4
   mediant convert depot.yaml -o depot-inflated.yaml --world --radius 0.15
+  mediant convert friction.tif -o friction.npy
+  mediant convert depot.yaml --world --inscribed-radius 0.1 --inflation-radius 0.5 -o costs.tif
   mediant convert builtin:town -o town.pbm";

@@ -23,7 +23,7 @@ pub(crate) use self::{
     build::BuildArgs,
     check::CheckArgs,
     convert::ConvertArgs,
-    costs::CostsArgs,
+    costs::{CostsArgs, InflationArgs, WalkingArgs},
     demo::DemoArgs,
     explain::explain,
     manual::{CompletionsArgs, ManArgs},

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
-    costs::CostsArgs,
+    costs::{CostsArgs, WalkingArgs},
     flags::{Flags, MOTION},
     map::MapArgs,
     value::{Place, parse_amount, parse_place},
@@ -18,12 +18,19 @@ pub(crate) struct ReachArgs {
     pub(crate) map: MapArgs,
     #[command(flatten)]
     pub(crate) costs: CostsArgs,
+    #[command(flatten)]
+    pub(crate) walking: WalkingArgs,
 
     /// A source: a place from which distances are measured. Of several (repeat it) the nearest one counts
-    #[arg(long, value_name = "X,Y", required = true)]
+    #[arg(long, value_name = "X,Y", required_unless_present = "to")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     pub(crate) from: Vec<Place>,
-    /// Go no further than this, in cells (with --world in meters); where cells have costs, in costs
+    /// In place of --from: a place to which distances are measured, which is another time over elevation
+    #[arg(long, value_name = "X,Y", conflicts_with = "from")]
+    #[arg(allow_hyphen_values = true, value_parser = parse_place)]
+    pub(crate) to: Vec<Place>,
+    /// Go no further than this, in cells (with --world in meters); where cells have costs, in costs, and over
+    /// elevation in seconds
     #[arg(long, value_name = "COST", allow_negative_numbers = true)]
     #[arg(value_parser = |text: &str| parse_amount(text, "cells"))]
     pub(crate) within: Option<f64>,
@@ -50,10 +57,15 @@ read or written.
 With --costs, or where the map itself is a raster of numbers (NPY, ESRI ASCII grid, GeoTIFF), cells have \
 costs, and distances are the least costs: an accumulated cost surface.
 
+With --elevation they are the least times to walk from the sources, in seconds where the raster is in \
+meters; with --to in place of --from, the times to walk to them.
+
 Examples:
   mediant reach builtin:cave --from 2,5 --within 40
   mediant reach arena.map --from 1,11 --from 40,30 -o arena.png
   mediant reach arena.map --from 1,11 --k any --gap closed -o arena.svg -o arena.csv -o arena.npy
   mediant reach arena.map --from 1,11 --radius 1.5 --within 20 -o -
   mediant reach friction.tif --from 100,200 --k 4 --corners always -o cost.tif
+  mediant reach dem.tif --elevation --from 100,200 --within 3600 --k 4 -o hour.tif
+  mediant reach dem.tif --elevation --pace langmuir --to 100,200 -o back.asc
   mediant reach depot.yaml --world --from 0.5,0.5 --within 1.5 --radius 0.1";

@@ -9,7 +9,7 @@ use clap::{ArgGroup, Args, ValueEnum};
 use mediant::{Engine, K, Motion, Rules, Setup};
 
 use super::{
-    costs::CostsArgs,
+    costs::{CostsArgs, WalkingArgs},
     flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},
     map::MapArgs,
     query::QueryArgs,
@@ -24,6 +24,8 @@ pub(crate) struct RunArgs {
     pub(crate) map: MapArgs,
     #[command(flatten)]
     pub(crate) costs: CostsArgs,
+    #[command(flatten)]
+    pub(crate) walking: WalkingArgs,
 
     /// A MovingAI scenario file with the queries, or builtin:NAME; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
@@ -47,6 +49,7 @@ pub(crate) struct RunArgs {
     /// Answer each query of a MovingAI map on the ground of its start: land (.GS), water (W) or trees (T),
     /// between which no step leads
     #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances", "costs"])]
+    #[arg(conflicts_with_all = ["inflation_radius", "elevation"])]
     pub(crate) grounds: bool,
     #[command(flatten)]
     pub(crate) query: QueryArgs,
@@ -136,7 +139,9 @@ Examples:
   mediant run arena.map --from 1,11 --to 40,30 --engine anya --draw
   mediant run arena.map --from 1,11 --to 40,30 --draw path.svg
   mediant run depot.yaml --world --radius 0.3 --from 0,0 --to 2,1 --draw path.png
+  mediant run depot.yaml --world --inscribed-radius 0.1 --inflation-radius 0.5 --from 0,0 --to 2,1
   mediant run arena.map --scen arena.map.scen --engine subgoal --index arena.idx
+  mediant run dem.tif --elevation --k 5 --from 3,4 --to 100,200
   mediant run builtin:town --k 4 --placement corner --smooth --reference anya
   mediant run arena.map --from 1,11 --to 40,30 --to 30,5 --to 8,40
   mediant run arena.map --from 1,11 --to 40,30 --snap --nearest --tolerance 1.5

@@ -23,7 +23,7 @@ pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure
     // A setup without an index is refused before anything is computed.
     let asked = Asked::of(&args.flags.0, true)?;
     let map = NamedMap::load(&args.map)?.for_agent(&args.map, asked.motion)?;
-    check_outputs(&args.map.map, &[&args.output])?;
+    check_outputs(&args.map.map, [], &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();
     let space = map.space(asked.motion)?;

@@ -1,14 +1,17 @@
 //! `mediant convert`: writes a map in another format.
 
-use std::{io::Write, path::Path};
+use std::{io::Write as _, path::Path};
 
 use mediant::grid::Grid;
-use mediant_formats::{MapFile, Raster, RasterFormat, RosError, RosMap};
+use mediant_formats::{MapFile, Raster, RasterFormat, RosError, RosMap, Surface, SurfaceFormat};
 
 use crate::{
-    args::ConvertArgs,
+    args::{ConvertArgs, CostsArgs},
     failure::Failure,
-    map::{NamedMap, file_name},
+    map::{
+        NamedMap, file_name,
+        numbers::{is_surface, read},
+    },
     terminal::{
         numbers::grouped,
         screen::{BOLD, Screen},
@@ -23,23 +26,41 @@ enum Form {
     MovingAi,
     Picture(RasterFormat),
     Ros,
+    /// Numbers of cells.
+    Numbers(SurfaceFormat),
 }
 
 impl Form {
     /// The format that a file's name stands for.
     fn of(path: &Path) -> Result<Self, Failure> {
-        match (extension(path).as_str(), RasterFormat::of_path(path)) {
-            ("map", _) => Ok(Self::MovingAi),
-            ("yaml" | "yml", _) => Ok(Self::Ros),
-            (_, Some(format)) => Ok(Self::Picture(format)),
-            _ => Err(Failure::Extension { path: path.to_owned(), known: ".map, .png, .pgm, .pbm or .yaml" }),
+        use SurfaceFormat::{EsriAscii, GeoTiff, Npy};
+        match (extension(path).as_str(), RasterFormat::of_path(path), SurfaceFormat::of_path(path)) {
+            ("map", ..) => Ok(Self::MovingAi),
+            ("yaml" | "yml", ..) => Ok(Self::Ros),
+            (_, Some(format), _) => Ok(Self::Picture(format)),
+            (_, None, Some(format @ (Npy | EsriAscii | GeoTiff))) => Ok(Self::Numbers(format)),
+            _ => {
+                let known = ".map, .png, .pgm, .pbm, .yaml, .npy, .asc or .tif";
+                Err(Failure::Extension { path: path.to_owned(), known })
+            }
+        }
+    }
+
+    /// The form of numbers, if the map's cells have some and the format has room for them.
+    fn of_numbers(self, args: &ConvertArgs) -> Self {
+        let CostsArgs { costs, inflation, .. } = &args.costs;
+        let has_numbers =
+            costs.is_some() || inflation.inflation_radius.is_some() || is_surface(&args.map.map);
+        match (self, SurfaceFormat::of_path(&args.output)) {
+            (Self::Picture(_), Some(format)) if has_numbers => Self::Numbers(format),
+            _ => self,
         }
     }
 }
 
 /// Runs the command.
 pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Failure> {
-    let (path, form) = (args.output.as_path(), Form::of(&args.output)?);
+    let (path, form) = (args.output.as_path(), Form::of(&args.output)?.of_numbers(args));
     let motion = args.motion.0.motion()?;
     if !matches!(form, Form::Ros) {
         let given = [("--resolution", args.resolution.is_some()), ("--origin", args.origin.is_some())];
@@ -47,13 +68,16 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
             return Err(Failure::NoRosMap { option });
         }
     }
+    if let Form::Numbers(format) = form {
+        return convert_numbers(args, format, screen);
+    }
     let map = NamedMap::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
     let image = path.with_extension("pgm");
     let written = match form {
         Form::Ros => vec![path, image.as_path()],
         _ => vec![path],
     };
-    check_outputs(&args.map.map, &written)?;
+    check_outputs(&args.map.map, args.costs.inputs(), &written)?;
     write(args, form, &map, &image)?;
     let names: Vec<String> =
         written.iter().map(|path| screen.paint(BOLD, printable(&file_name(path))).to_string()).collect();
@@ -72,6 +96,7 @@ fn write(args: &ConvertArgs, form: Form, map: &NamedMap, image: &Path) -> Result
             write_file(path, |file| MapFile::from_grid(&map.grid).write(file))
         }
         Form::MovingAi => write_file(path, |file| map.tiles().write(file)),
+        Form::Numbers(_) => Err(Failure::NoNumbers { map: map.name.clone() }),
         Form::Picture(format) => {
             let raster = Raster::from_grid(&map.grid).map_err(|source| wrong(source.into()))?;
             write_file(path, |file| raster.write(format, file))
@@ -84,6 +109,66 @@ fn write(args: &ConvertArgs, form: Form, map: &NamedMap, image: &Path) -> Result
             Ok(ros.save(path)?)
         }
     }
+}
+
+/// Writes the numbers of a raster, or the costs of a map.
+fn convert_numbers(args: &ConvertArgs, format: SurfaceFormat, screen: &mut Screen) -> Result<(), Failure> {
+    if args.map.radius.is_some() {
+        return Err(Failure::NotOnCosts { option: "--radius" });
+    }
+    let surface = for_format(numbers(args)?, format)?;
+    let path = args.output.as_path();
+    check_outputs(&args.map.map, args.costs.inputs(), &[path])?;
+    surface.save(path)?;
+    let known = || surface.iter().flatten();
+    let (least, greatest) =
+        (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
+    let (cells, without) =
+        (surface.iter().len() as u64, surface.iter().len() as u64 - known().count() as u64);
+    let name = screen.paint(BOLD, printable(&file_name(path))).to_string();
+    write!(screen, "{name} · {} × {} numbers", surface.width(), surface.height())?;
+    if without < cells {
+        write!(screen, " from {least} to {greatest}")?;
+    }
+    writeln!(screen, " · {} of {} cells without data", grouped(without), grouped(cells))?;
+    Ok(())
+}
+
+/// The numbers: those of the costs, if there are some, else those of the file itself.
+fn numbers(args: &ConvertArgs) -> Result<Surface, Failure> {
+    let CostsArgs { costs, band, inflation } = &args.costs;
+    if costs.is_none() && inflation.inflation_radius.is_none() {
+        let is_picture = SurfaceFormat::of_path(&args.map.map).is_some();
+        return match is_picture || is_surface(&args.map.map) {
+            true => read(&args.map.map, *band),
+            false => Err(Failure::NoNumbers { map: file_name(&args.map.map) }),
+        };
+    }
+    let map = NamedMap::load_ground(&args.map, *band)?.with_costs(&args.map, &args.costs)?;
+    let Some(costs) = &map.costs else { return Err(Failure::NoNumbers { map: map.name }) };
+    let (width, height) = (map.grid.width(), map.grid.height());
+    let cells = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| (x, y)));
+    let numbers: Vec<f64> = cells.map(|at| costs.cost(at).unwrap_or(NO_DATA)).collect();
+    let surface = Surface::new(width, height, numbers).map_err(Failure::Surface)?;
+    Ok(surface.with_no_data(Some(NO_DATA)).with_georeference(map.georeference.unwrap_or_default()))
+}
+
+/// No cost is negative, and every program reads it.
+const NO_DATA: f64 = -9999.0;
+
+/// The numbers as a format has them: it may have no word for cells without data.
+fn for_format(surface: Surface, format: SurfaceFormat) -> Result<Surface, Failure> {
+    let without = match format {
+        SurfaceFormat::Pgm | SurfaceFormat::Png => 0.0,
+        SurfaceFormat::Npy => f64::NAN,
+        _ => return Ok(surface),
+    };
+    if surface.iter().all(|number| number.is_some()) {
+        return Ok(surface);
+    }
+    let numbers: Vec<f64> = surface.iter().map(|number| number.unwrap_or(without)).collect();
+    let written = Surface::new(surface.width(), surface.height(), numbers).map_err(Failure::Surface)?;
+    Ok(written.with_no_data(Some(without)))
 }
 
 /// The number and the share of blocked cells, in words.

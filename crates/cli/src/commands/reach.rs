@@ -18,7 +18,7 @@ use crate::{
         report::motion_in_words,
     },
     terminal::{
-        numbers::{count, grouped, rounded},
+        numbers::{count, grouped, hours, rounded},
         screen::{BOLD, Screen},
         text::printable,
     },
@@ -61,18 +61,21 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let motion = args.motion.0.motion()?;
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
-    let map = NamedMap::load(&args.map)?.for_agent(&args.map, motion)?.with_costs(&args.costs)?;
+    let map = NamedMap::load_ground(&args.map, args.costs.band)?.without_tiles();
+    let map = map.for_agent(&args.map, motion)?.with_numbers(&args.map, &args.costs, &args.walking)?;
     let written: Vec<&Path> =
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
-    check_outputs(&args.map.map, &written)?;
+    check_outputs(&args.map.map, args.costs.inputs().chain(args.walking.inputs()), &written)?;
     let placement = motion.rules.placement();
-    let sources = args.from.iter().map(|&place| map.vertex(placement, place));
+    let places = if args.to.is_empty() { &args.from } else { &args.to };
+    let sources = places.iter().map(|&place| map.vertex(placement, place));
     let sources = sources.collect::<Result<Vec<Vertex>, Failure>>()?;
-    let limit = args.within.map(|cost| if map.costs.is_some() { cost } else { map.cells(cost) });
+    let limit = args.within.map(|cost| if map.has_costs() { cost } else { map.cells(cost) });
     let space = map.space(motion)?;
-    let field = match limit {
-        Some(limit) => space.field_within(sources.iter().copied(), limit),
-        None => space.field(sources.iter().copied()),
+    let (ends, greatest) = (sources.iter().copied(), limit.unwrap_or(f64::INFINITY));
+    let field = match args.to.is_empty() {
+        true => space.field_from_within(ends, greatest),
+        false => space.field_within(ends, greatest),
     };
     let field = match field {
         Ok(field) => field,
@@ -95,8 +98,9 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     }
     // A summary would spoil the CSV on stdout.
     if outputs.iter().all(|(_, form)| *form != Form::Printed) {
-        summary(&map, motion, &field, &sources, limit, screen)?;
-        if let Some(moved) = map.moved(placement, &args.from, &sources).filter(|&moved| moved > 0.0) {
+        let way = if args.to.is_empty() { "from" } else { "to" };
+        summary(&map, motion, &field, (way, &sources), limit, screen)?;
+        if let Some(moved) = map.moved(placement, places, &sources).filter(|&moved| moved > 0.0) {
             writeln!(screen, "  moved to vertices: the sources by at most {moved:.3} m")?;
         }
     }
@@ -131,7 +135,7 @@ fn summary(
     map: &NamedMap,
     motion: Motion,
     field: &Field,
-    sources: &[Vertex],
+    (way, sources): (&str, &[Vertex]),
     limit: Option<f64>,
     screen: &mut Screen,
 ) -> io::Result<()> {
@@ -140,20 +144,28 @@ fn summary(
         [_] => first.to_string(),
         _ => format!("{} sources", grouped(sources.len() as u64)),
     };
-    let meters = |cells: f64| map.frame.map(|frame| rounded(cells * frame.resolution()));
+    let frame = map.frame.filter(|_| !map.has_costs());
+    let meters = |cells: f64| frame.map(|frame| rounded(cells * frame.resolution()));
+    let unit = if map.walking.is_some() { " s" } else { "" };
     let how = limit.map_or_else(
-        || format!("reached from {from}"),
+        || match way {
+            "to" => format!("reach {from}"),
+            _ => format!("reached from {from}"),
+        },
         |limit| match meters(limit) {
             Some(meters) => format!("within {meters} m of {from}"),
-            None => format!("within {limit} of {from}"),
+            None => format!("within {limit}{unit} of {from}"),
         },
     );
     let (at, distance) = furthest((first, 0.0), field.iter());
     let vertices = count(field.iter().count() as u64, "vertex", "vertices");
     let name = screen.paint(BOLD, printable(&map.name)).to_string();
     let motion_words = motion_in_words(motion);
-    write!(screen, "{name} · {motion_words} · {vertices} {how}, the furthest {at} at {distance:.4}")?;
-    if let (Some(frame), Some(meters)) = (map.frame, meters(distance)) {
+    write!(screen, "{name} · {motion_words} · {vertices} {how}, the furthest {at} at {distance:.4}{unit}")?;
+    if map.walking.is_some() && distance >= 60.0 {
+        write!(screen, " ({})", hours(distance))?;
+    }
+    if let (Some(frame), Some(meters)) = (frame, meters(distance)) {
         let (x, y) = frame.point_of(motion.rules.placement(), at);
         write!(screen, " cells: in the world ({x:.3}, {y:.3}) at {meters:.3} m")?;
     }

@@ -37,10 +37,11 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     }
     args.check_ends()?;
     let map = match args.grounds {
-        true => load(args)?.on_all_grounds(&args.map)?,
+        true => load(args)?.with_own_costs()?.on_all_grounds(&args.map)?,
         false => with_costs(args, load(args)?.for_agent(&args.map, asked.motion)?)?,
     };
-    check_outputs(&args.map.map, &args.outputs())?;
+    let inputs = args.costs.inputs().chain(args.walking.inputs());
+    check_outputs(&args.map.map, inputs, &args.outputs())?;
     let query = args.query.on(asked.call.wishes(), &map, placement)?;
     if let (Some(path), Some(from)) = (&args.distances, query.from.first()) {
         return distances::write(&asked, &map, *from, path, screen);
@@ -98,7 +99,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
 
 /// The map with its costs, if it has any; refuses options that have no meaning then.
 fn with_costs(args: &RunArgs, map: NamedMap) -> Result<NamedMap, Failure> {
-    let map = map.with_costs(&args.costs)?;
+    let map = map.with_numbers(&args.map, &args.costs, &args.walking)?;
     map.refuse_on_costs("--edits", args.edits.is_some())?;
     map.refuse_on_costs("--reference", args.reference.is_some())?;
     Ok(map)
@@ -120,7 +121,8 @@ fn check_number(args: &RunArgs, queries: &Queries) -> Result<(), Failure> {
 /// The map, with its characters if they are to be drawn, or say which ground a cell is.
 fn load(args: &RunArgs) -> Result<NamedMap, Failure> {
     let needs_tiles = args.grounds || matches!(args.draw, Some(None));
-    if needs_tiles { NamedMap::load_with_tiles(&args.map) } else { NamedMap::load(&args.map) }
+    let map = NamedMap::load_ground(&args.map, args.costs.band)?;
+    Ok(if needs_tiles { map } else { map.without_tiles() })
 }
 
 /// The ending after the last query, with its message and exit status.

@@ -70,7 +70,7 @@ impl Report for Jsonl<'_> {
     fn begin(&mut self, run: &RunHead<'_>) -> io::Result<()> {
         self.world = run.map.frame.map(|frame| (frame, run.setup.rules().placement()));
         self.only_lengths = run.query.distance;
-        self.has_costs = run.map.costs.is_some();
+        self.has_costs = run.map.has_costs();
         self.line(&RunLine::from(run))?;
         self.flush()
     }
@@ -112,6 +112,9 @@ struct RunLine<'r> {
     /// costs then, and there is no `lower_bound` of a path that was found.
     #[serde(skip_serializing_if = "Option::is_none")]
     costs: Option<[f64; 2]>,
+    /// Whether these are times of walking over elevation, seconds a meter; only with `--elevation`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    walking: Option<bool>,
     /// Whether each query is answered on the ground of its start; only with `--grounds`. `free_cells` are
     /// those of all grounds then.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -236,7 +239,8 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
             height: grid.height(),
             free_cells: grid.free_cells(),
             grounds: run.grounds.then_some(true),
-            costs: run.map.costs.as_ref().map(|costs| costs.bounds().into()),
+            costs: run.map.cost_bounds().map(Into::into),
+            walking: run.map.walking.as_ref().map(|_| true),
             radius: Some(run.map.radius).filter(|&radius| radius > 0.0),
             resolution: run.map.frame.map(|frame| frame.resolution()),
             moved: run.query.moved,

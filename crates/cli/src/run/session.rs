@@ -94,7 +94,7 @@ impl Session<'_> {
         item: Item,
     ) -> Result<QueryRecord, Failure> {
         let Searcher { map, planner, any_angle, .. } = searcher;
-        let (grid, rules, has_costs) = (&*map.grid, run.setup.rules(), map.costs.is_some());
+        let (grid, rules, has_costs) = (&*map.grid, run.setup.rules(), map.has_costs());
         let query = || run.query.between(item.ends);
         if run.query.distance {
             let (Measured { counters, nanos, .. }, length) =

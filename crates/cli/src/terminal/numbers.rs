@@ -38,6 +38,15 @@ pub(crate) fn rounded(length: f64) -> f64 {
     (length * 1e9).round() / 1e9
 }
 
+/// Seconds in hours and minutes: `1 h 02 min`; less than an hour in minutes and seconds, `2 min 05 s`.
+pub(crate) fn hours(seconds: f64) -> String {
+    let seconds = seconds.round() as u64;
+    match seconds / 3_600 {
+        0 => format!("{} min {:02} s", seconds / 60, seconds % 60),
+        hours => format!("{} h {:02} min", grouped(hours), seconds % 3_600 / 60),
+    }
+}
+
 /// The excess of a ratio over 1, in percent with a sign: `+8.24 %`.
 pub(crate) fn percent_over(ratio: f64, digits: usize) -> String {
     let percent = (ratio - 1.0) * 100.0;
@@ -72,6 +81,14 @@ mod tests {
     #[test]
     fn thousands_are_grouped() {
         assert_eq!([0, 999, 1_000, 12_345_678].map(grouped), ["0", "999", "1,000", "12,345,678"]);
+    }
+
+    #[test]
+    fn long_times_are_in_hours() {
+        assert_eq!(
+            [60.0, 125.4, 3_599.4, 3_720.0].map(hours),
+            ["1 min 00 s", "2 min 05 s", "59 min 59 s", "1 h 02 min"]
+        );
     }
 
     #[test]

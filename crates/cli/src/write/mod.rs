@@ -3,17 +3,25 @@
 pub(crate) mod input;
 pub(crate) mod npy;
 
-use std::{io, path::Path};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
 
 use mediant_formats::NewFile;
 
 use crate::{failure::Failure, write::input::check_inputs};
 
 /// Checks, before anything is computed, that files can be written, as far as this can be known, and that the
-/// map is read from none of them.
-pub(crate) fn check_outputs(map: &Path, written: &[&Path]) -> Result<(), Failure> {
+/// map is read from none of them, nor are other inputs.
+pub(crate) fn check_outputs<'i>(
+    map: &Path,
+    others: impl IntoIterator<Item = &'i PathBuf>,
+    written: &[&Path],
+) -> Result<(), Failure> {
     written.iter().try_for_each(NewFile::check)?;
-    check_inputs(map, written)
+    check_inputs(map, written)?;
+    others.into_iter().try_for_each(|other| check_inputs(other, written))
 }
 
 /// The end of a file's name after the last point, in small letters; empty without one.

@@ -6,7 +6,7 @@ use std::{
     process::{Command, Stdio},
 };
 
-use mediant_formats::Surface;
+use mediant_formats::{Georeference, Surface};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -181,7 +181,7 @@ pub(crate) fn run_examples(files: &Files, command: &str, expected: usize) {
 }
 
 /// Adds `arena.map`, 49 × 49 cells, `depot.yaml`, 60 × 40 cells of 5 cm, and `friction.tif`, 120 × 220 cells
-/// of cost 3, without walls.
+/// of cost 3, without walls; `dem.tif` has as many cells of 30 m on a slope.
 pub(crate) fn add_example_files(files: &Files) {
     let row = ".".repeat(49) + "\n";
     files.add("arena.map", format!("type octile\nheight 49\nwidth 49\nmap\n{}", row.repeat(49)));
@@ -195,6 +195,10 @@ pub(crate) fn add_example_files(files: &Files) {
     ));
     let friction = Surface::new(120, 220, vec![3_u8; 120 * 220]).expect("a number for each cell");
     friction.save(files.path("friction.tif")).expect("a file in the temporary folder");
+    let heights: Vec<u8> = (0..120 * 220).map(|cell| (cell % 120) as u8).collect();
+    let place = Georeference::from_cell_size(30.0, 30.0).expect("a size");
+    let heights = Surface::new(120, 220, heights).expect("a number for each cell").with_georeference(place);
+    heights.save(files.path("dem.tif")).expect("a file in the temporary folder");
 }
 
 /// Runs a command line that succeeds without a word on stderr, and returns what it prints.

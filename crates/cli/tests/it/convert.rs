@@ -201,7 +201,9 @@ fn what_cannot_be_converted() {
     for name in ["cave.bmp", "cave", "-"] {
         check(
             &format!("convert builtin:cave -o {name}"),
-            &format!("{name}: expected a name that ends in .map, .png, .pgm, .pbm or .yaml"),
+            &format!(
+                "{name}: expected a name that ends in .map, .png, .pgm, .pbm, .yaml, .npy, .asc or .tif"
+            ),
         );
     }
     let missing = "the following required arguments were not provided: --output <OUT>; see --help";
@@ -216,5 +218,5 @@ fn the_examples_of_the_help_run() {
     let files = Files::new();
     add_example_files(&files);
     fs::remove_file(files.path("depot.map")).expect("it was there");
-    run_examples(&files, "convert", 5);
+    run_examples(&files, "convert", 7);
 }

@@ -99,21 +99,21 @@ fn what_does_not_go_with_costs_is_said() {
     check(
         &format!("reach {map} --from 0,0 --costs {small}"),
         &format!(
-            "{small}: 2 columns and 1 rows of costs, and land.map has 5 and 3: give one cost for each cell"
+            "{small}: 2 columns and 1 rows of numbers, and the map has 5 and 3: give one number for each cell"
         ),
     );
     let wrong = files.add("wrong.asc", COSTS.replace("9 4 1", "9 -4 1"));
     check(
         &format!("reach {map} --from 0,0 --costs {wrong}"),
         &format!(
-            "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number; mark walls as cells without \
-             data, or as blocked on the map"
+            "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number; a cell that cannot be entered \
+             is marked as blocked, not by its cost"
         ),
     );
     check(
         &format!("reach {small} --from 0,0 --costs {small}"),
         &format!(
-            "--costs {small} for small.asc, whose cells have costs of their own: leave one of the two out"
+            "--costs {small} for small.asc, whose cells have numbers of their own: leave one of the two out"
         ),
     );
     let missing = run(&format!("reach {map} --from 0,0 --costs no.tif"));

@@ -20,6 +20,7 @@ mod reach;
 mod subgoal;
 mod table;
 mod trace;
+mod walking;
 mod wishes;
 mod words;
 mod world;

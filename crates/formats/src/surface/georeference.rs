@@ -62,6 +62,17 @@ impl Georeference {
         Ok(Self { cell_size: Some((x, y)), ..Self::default() })
     }
 
+    /// One that has the size of a cell, and the lower left corner of the raster.
+    ///
+    /// # Errors
+    /// [`SurfaceError::CellSize`] unless both sides are positive numbers. A corner that is not finite is left
+    /// out.
+    pub fn from_lower_left(cell_size: (f64, f64), (x, y): (f64, f64)) -> Result<Self, SurfaceError> {
+        let of_size = Self::from_cell_size(cell_size.0, cell_size.1)?;
+        let origin = (x.is_finite() && y.is_finite()).then_some(Origin { x, y, is_center: false });
+        Ok(Self { origin, ..of_size })
+    }
+
     /// The width and the height of a cell, in the unit of the coordinate system; `None` if the file says
     /// nothing of it.
     #[must_use]
