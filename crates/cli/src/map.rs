@@ -110,15 +110,15 @@ impl NamedMap {
     }
 
     fn new(name: String, grid: Arc<Grid>, tiles: Option<MapFile>, theme: Theme) -> Self {
-        Self { tiles, theme, ..Self::plain(name, &grid) }
+        Self { tiles, theme, ..Self::plain(name, grid) }
     }
 
     /// A map of which nothing more is known.
-    fn plain(name: String, grid: &Arc<Grid>) -> Self {
+    fn plain(name: String, grid: Arc<Grid>) -> Self {
         Self {
             name,
-            grid: Arc::clone(grid),
-            ground: Arc::clone(grid),
+            ground: Arc::clone(&grid),
+            grid,
             radius: 0.0,
             theme: Theme::Plain,
             frame: None,

@@ -29,7 +29,7 @@ impl NamedMap {
         let surface = read(path, band)?;
         let map = mediant::Map::with_data(&surface).map_err(|error| in_file(path, error))?;
         let raster = Some(Raster { path: path.to_owned(), surface: Arc::new(surface) });
-        Ok(Self { raster, ..Self::plain(name, map.grid()) })
+        Ok(Self { raster, ..Self::plain(name, Arc::clone(map.grid())) })
     }
 
     /// The map with the costs of its own raster, if it is one.
