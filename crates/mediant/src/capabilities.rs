@@ -129,6 +129,16 @@ const SUBGOALS: Capabilities = Capabilities {
     ..SEARCH
 };
 
+/// The largest k of searches on costs of cells, and the version of the landmarks' format: known here without
+/// the feature `costs`, too.
+const MAX_K_ON_COSTS: u32 = 8;
+const LANDMARKS_VERSION: u32 = 1;
+#[cfg(feature = "costs")]
+const _: () = assert!(
+    MAX_K_ON_COSTS == mediant_costs::CostGraph::MAX_K
+        && LANDMARKS_VERSION == mediant_costs::Landmarks::VERSION
+);
+
 /// A search on prepared clusters or segments.
 const HIERARCHY: Capabilities = Capabilities {
     placements: &[PlacementKind::Center],
@@ -272,6 +282,17 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         variants: &[Variant::Complete, Variant::Paper],
         index: Some(SegmentGraph::VERSION),
         ..HIERARCHY
+    },
+    Capabilities {
+        title: "Landmarks (ALT)",
+        how: "A* guided by the prepared distances of all vertices from a few landmarks; made for costs of cells.",
+        paper: "Goldberg 2005",
+        papers: "Goldberg & Harrelson 2005",
+        max_k: MAX_K_ON_COSTS,
+        grid_graph: false,
+        costs: true,
+        index: Some(LANDMARKS_VERSION),
+        ..SEARCH
     },
 ];
 

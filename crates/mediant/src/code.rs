@@ -1,7 +1,7 @@
 //! Stable names for the kinds of mistakes.
 
 #[cfg(feature = "costs")]
-use mediant_costs::CostsError;
+use mediant_costs::{CostsError, LandmarksError};
 #[cfg(feature = "walking")]
 use mediant_costs::WalkingError;
 use mediant_formats::{IndexError, ReadError};
@@ -53,7 +53,7 @@ pub enum ErrorCode {
     GaveUp,
     /// An index that cannot be made: too large, or with levels or a side that do not exist.
     IndexRange,
-    /// An index that does not have the levels or the side that were named.
+    /// An index that does not have the levels, the side or the landmarks that were named.
     IndexOptions,
     /// An index that is damaged, cut short, or none.
     IndexDamaged,
@@ -154,7 +154,11 @@ impl Error {
             Self::Subgoal(error) => of_subgoal(error),
             Self::InFile { source, .. } => source.code(),
             Self::Hierarchy(error) => of_hierarchy(error),
-            Self::Levels { .. } | Self::Side { .. } | Self::Memory { .. } => ErrorCode::IndexOptions,
+            Self::Levels { .. } | Self::Side { .. } | Self::LandmarkCount { .. } | Self::Memory { .. } => {
+                ErrorCode::IndexOptions
+            }
+            #[cfg(feature = "costs")]
+            Self::Landmarks(error) => of_landmarks(error),
             Self::IndexFile(error) => of_index(error),
             Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
@@ -200,6 +204,16 @@ const fn of_walking(error: &WalkingError) -> ErrorCode {
     }
 }
 
+#[cfg(feature = "costs")]
+const fn of_landmarks(error: &LandmarksError) -> ErrorCode {
+    match error {
+        LandmarksError::Count { .. } => ErrorCode::IndexRange,
+        LandmarksError::Mismatch(_) => ErrorCode::Mismatch,
+        LandmarksError::Bytes(_) => ErrorCode::IndexDamaged,
+        _ => ErrorCode::Other,
+    }
+}
+
 const fn of_call(error: &CallError) -> ErrorCode {
     match error {
         CallError::Type { .. } | CallError::Value { .. } | CallError::Together { .. } => ErrorCode::Argument,
@@ -214,6 +228,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         SetupError::Option { .. }
         | SetupError::DetourAsPublished { .. }
         | SetupError::MemoryWithoutLabels { .. }
+        | SetupError::Landmarks { .. }
         | SetupError::OtherEngine { .. }
         | SetupError::OtherPlanner { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,

@@ -13,12 +13,12 @@ use crate::{
     engine::Engine,
     engines::{
         CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
-        SubgoalOptions, SubgoalThetaOptions,
+        LandmarkOptions, SubgoalOptions, SubgoalThetaOptions,
     },
     option::{
         EngineOption, HeuristicName, Levels, OptionValue,
         slot::{Options, Slot},
-        table::{HEURISTIC, LEVELS, SIDE},
+        table::{HEURISTIC, LANDMARKS, LEVELS, SIDE},
     },
     setup_error::SetupError,
 };
@@ -49,6 +49,7 @@ pub enum ConfiguredEngine {
     SubgoalTheta(SubgoalThetaOptions),
     Hpa(HpaOptions),
     Chpa(ChpaOptions),
+    Landmarks(LandmarkOptions),
 }
 
 impl Default for ConfiguredEngine {
@@ -75,6 +76,7 @@ impl From<Engine> for ConfiguredEngine {
             Engine::SubgoalTheta => Self::SubgoalTheta(SubgoalThetaOptions::default()),
             Engine::Hpa => Self::Hpa(HpaOptions::default()),
             Engine::Chpa => Self::Chpa(ChpaOptions::default()),
+            Engine::Landmarks => Self::Landmarks(LandmarkOptions::default()),
         }
     }
 }
@@ -98,6 +100,7 @@ impl ConfiguredEngine {
             Self::SubgoalTheta(_) => Engine::SubgoalTheta,
             Self::Hpa(_) => Engine::Hpa,
             Self::Chpa(_) => Engine::Chpa,
+            Self::Landmarks(_) => Engine::Landmarks,
         }
     }
 
@@ -113,6 +116,7 @@ impl ConfiguredEngine {
             Self::SubgoalTheta(own) => Some(own),
             Self::Hpa(own) => Some(own),
             Self::Chpa(own) => Some(own),
+            Self::Landmarks(own) => Some(own),
         }
     }
 
@@ -226,6 +230,12 @@ impl ConfiguredEngine {
     #[must_use]
     pub fn side(self) -> Option<NonZeroU32> {
         self.own_value(&SIDE)?.number()
+    }
+
+    /// The number of landmarks; `None` for an engine that has none.
+    #[must_use]
+    pub fn landmarks(self) -> Option<NonZeroU32> {
+        self.own_value(&LANDMARKS)?.number()
     }
 
     /// The heuristic of the second phase; `None` for an engine that has only one phase.

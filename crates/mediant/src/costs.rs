@@ -18,10 +18,10 @@ use crate::{
 /// inside: results are the same on every platform, and where all cells cost 1 they are lengths.
 ///
 /// **What there is on costs.** [`space`](Self::space) makes a [`Space`] for k = 2 to 8, with the queries,
-/// limits, fields, tables and edits that all spaces have. Its engines are A* and Dijkstra's algorithm; others
-/// say so. [`Path::cost`](crate::Path::cost), fields and limits are in costs,
-/// [`Path::length`](crate::Path::length), tolerances and what is 'nearest' in cells. The bounds against
-/// paths at any angle say nothing on costs. Not there yet: smoothing, exceptions, saved indexes.
+/// limits, fields, tables and edits that all spaces have. Its engines are A*, Dijkstra's algorithm, and A* on
+/// landmarks, which are its index; others say so. [`Path::cost`](crate::Path::cost), fields and limits are in
+/// costs, [`Path::length`](crate::Path::length), tolerances and what is 'nearest' in cells. The bounds
+/// against paths at any angle say nothing on costs. Not there yet: smoothing, exceptions.
 #[derive(Clone)]
 pub struct Costs {
     map: Map,

@@ -43,6 +43,10 @@ const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
 /// For all distances.
 const DISTANCES: Choice = Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" };
 
+/// For an index where cells have costs.
+const LANDMARKS: Choice =
+    Choice { engine: Engine::Landmarks, why: "of the engines on costs it alone has an index" };
+
 impl Space {
     /// The engine that we would take for what is asked, and why:
     /// - for one path [`Choice::for_next_path`], for up to 1,000 [`Choice::for_some_paths`], for more
@@ -52,7 +56,7 @@ impl Space {
     ///   one whose repair is quick, beyond that subgoals. These are reckoned as
     ///   [finished](crate::Index::finish) after every 40 edits; `docs/results/changes.md` has the figures;
     /// - for all distances Dijkstra's algorithm;
-    /// - for an index subgoals, or JPS+ where they are not for this motion;
+    /// - for an index subgoals, or JPS+ where they are not for this motion, or landmarks;
     /// - for paths where cells have costs A*.
     ///
     /// ```
@@ -70,8 +74,8 @@ impl Space {
     /// ```
     ///
     /// # Errors
-    /// [`SetupError`] where no engine does that for the space's motion: an index between centers from k = 4
-    /// on, or where cells have costs; all distances at any angle (a [`field`](Self::field) has them).
+    /// [`SetupError`] where no engine does that for the space's motion: an index between centers above k = 8;
+    /// all distances at any angle (a [`field`](Self::field) has them).
     pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
         if self.has_costs() { demand.choice_on_costs() } else { demand.choice(self.motion(), self.map()) }
     }
@@ -115,6 +119,10 @@ impl Demand {
                 engine: Engine::JpsPlus,
                 why: "it has an index, and subgoals are not for these rules",
             }),
+            Self::Index if takes(Engine::Landmarks).is_ok() => Ok(Choice {
+                engine: Engine::Landmarks,
+                why: "it has an index, and all others are not for this motion",
+            }),
             Self::Index => Err(SetupError::NoIndex { motion }),
         }
     }
@@ -124,7 +132,7 @@ impl Demand {
         match self {
             Self::Paths(_) | Self::Changing { .. } => Ok(Choice::ON_COSTS),
             Self::Distances => Ok(DISTANCES),
-            Self::Index => Err(SetupError::INDEX_ON_COSTS),
+            Self::Index => Ok(LANDMARKS),
         }
     }
 

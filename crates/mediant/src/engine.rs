@@ -49,6 +49,9 @@ pub enum Engine {
     Hpa,
     /// [`ChpaStar`](mediant_hierarchy::ChpaStar) on a [`SegmentGraph`](mediant_hierarchy::SegmentGraph).
     Chpa,
+    /// [`CostAStar`](mediant_costs::CostAStar) on [`Landmarks`](mediant_costs::Landmarks), with the feature
+    /// `costs`.
+    Landmarks,
 }
 
 names!(Engine:
@@ -66,17 +69,18 @@ names!(Engine:
     SubgoalTheta => "subgoal-theta",
     Hpa => "hpa",
     Chpa => "chpa",
+    Landmarks => "landmarks" | "alt",
 );
 
 impl Engine {
-    /// Whether this build has it: each one with the feature `all-engines`.
+    /// Whether this build has it: landmarks with the feature `costs`, each other one with `all-engines`.
     #[must_use]
     pub const fn is_built(self) -> bool {
-        cfg!(feature = "all-engines")
-            || matches!(
-                self,
-                Self::AStar | Self::Dijkstra | Self::Canonical | Self::Jps | Self::JpsBlock | Self::Anya
-            )
+        match self {
+            Self::AStar | Self::Dijkstra | Self::Canonical | Self::Jps | Self::JpsBlock | Self::Anya => true,
+            Self::Landmarks => cfg!(feature = "costs"),
+            _ => cfg!(feature = "all-engines"),
+        }
     }
 
     /// The engines of this build that satisfy a condition: their names, separated by commas.

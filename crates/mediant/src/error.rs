@@ -6,7 +6,7 @@ use std::{
 };
 
 #[cfg(feature = "costs")]
-use mediant_costs::CostsError;
+use mediant_costs::{CostsError, LandmarksError};
 #[cfg(feature = "walking")]
 use mediant_costs::WalkingError;
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
@@ -185,6 +185,21 @@ pub enum Error {
         /// The side of the index, in cells.
         found: u32,
     },
+    /// A saved index with another number of landmarks than the setup names.
+    #[error(
+        "needs an index with {expected} landmarks, found one with {found}; choose the number that it has, or \
+         prepare it again"
+    )]
+    LandmarkCount {
+        /// The number of landmarks that are made for that of the setup.
+        expected: u32,
+        /// The number in the index.
+        found: u32,
+    },
+    /// Landmarks that cannot be made or read.
+    #[cfg(feature = "costs")]
+    #[error(transparent)]
+    Landmarks(LandmarksError),
     /// A saved index with hub labels that take more memory than the setup allows.
     #[error(
         "needs hub labels of at most {most}, found {found} in the index; allow more memory, or prepare it again"
@@ -290,6 +305,8 @@ macro_rules! from_errors {
 }
 
 from_errors!(Jump: JumpError, Subgoal: SubgoalError, Hierarchy: HierarchyError, IndexFile: IndexError);
+#[cfg(feature = "costs")]
+from_errors!(Landmarks: LandmarksError);
 
 #[cfg(feature = "costs")]
 impl From<CostsError> for Error {

@@ -109,6 +109,7 @@
 //! | `hpa`, `chpa` | clusters, segments | bytes |
 //! | `subgoal` | where they prove the answer, labels or graph of the map before; elsewhere another engine | costs |
 //! | `subgoal-theta` | the edges and levels of subgoals that looked at what changed; all are numbered anew | bytes |
+//! | `landmarks` | where cells were freed or cost less, the distances from landmarks that shrink | costs |
 //!
 //! The first edit makes an index of `subgoal-theta` anew, with a record of what was looked at; by this it
 //! follows the next ones.
@@ -132,7 +133,8 @@
 //!
 //! [`Map::costs`] gives each cell a cost a unit of length: terrain, friction, the distance to walls. A space
 //! of [`Costs`] answers the same queries, and has the same fields, by A* and Dijkstra's algorithm, with exact
-//! costs.
+//! costs. [`Engine::Landmarks`] prepares an index, which can be saved and repaired: with it most queries take
+//! a fifth to a tenth of the time.
 //!
 //! ```
 //! use mediant::{Map, Motion};

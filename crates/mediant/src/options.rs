@@ -8,7 +8,7 @@ pub use crate::{
     engine_name::EngineName,
     engines::{
         CanonicalOptions, ChpaOptions, GuidedOptions, HpaOptions, JpsPlusOptions, JumpOptions,
-        SubgoalOptions, SubgoalThetaOptions,
+        LandmarkOptions, SubgoalOptions, SubgoalThetaOptions,
     },
     option::{
         EngineOption, HeuristicName, Levels, Memory, OptionValue, UnknownLevels, UnknownMemory, ValueKind,

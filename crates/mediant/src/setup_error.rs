@@ -99,6 +99,14 @@ pub enum SetupError {
         /// The levels.
         levels: Levels,
     },
+    /// A number of landmarks that there cannot be.
+    #[error("{count} landmarks: choose 1 to {max}")]
+    Landmarks {
+        /// The number.
+        count: u32,
+        /// The greatest.
+        max: u32,
+    },
     /// Options of another engine than that of the index.
     #[error("this index is of {known}: give options of {known}, or prepare {engine}")]
     OtherEngine {
@@ -125,7 +133,7 @@ pub enum SetupError {
     },
     /// A saved index, for a motion for which no engine has one.
     #[error(
-        "no engine has an index for {motion}: choose k = 2 or 3, or placement corner, or name an engine that needs none"
+        "no engine has an index for {motion}: choose k = 2 to 8, or placement corner, or name an engine that needs none"
     )]
     NoIndex {
         /// The motion.
@@ -191,9 +199,6 @@ impl SetupError {
     };
     pub(crate) const WIDEST_ON_COSTS: Self =
         Self::WithCosts { what: "widest path", instead: "raise the costs of cells near walls" };
-    pub(crate) const INDEX_ON_COSTS: Self =
-        Self::WithCosts { what: "saved index", instead: "prepare it, which takes next to nothing" };
-
     pub(crate) const EDITS_OVER_ELEVATION: Self =
         Self::WithCosts { what: "edit of elevations", instead: "make the map to walk on anew" };
 
@@ -206,6 +211,12 @@ impl SetupError {
     pub(crate) fn without_index(engine: Engine) -> Self {
         let others = Engine::names_where(|kind| kind.capabilities().index.is_some());
         Self::Without { engine, what: "index", others }
+    }
+
+    /// The same where cells have costs.
+    pub(crate) fn without_index_on_costs(engine: Engine) -> Self {
+        let is_known = |kind: Engine| kind.capabilities().costs && kind.capabilities().index.is_some();
+        Self::Without { engine, what: "index", others: Engine::names_where(is_known) }
     }
 
     #[cfg(feature = "publications")]

@@ -121,6 +121,8 @@ fn eight_planners_share_one_index() {
         (Engine::Chpa, Motion::centers(K::N8), 19),
         (Engine::Theta, Motion::centers(K::N8), 26),
         (Engine::LazyTheta, Motion::centers(K::N8), 26),
+        // 16 for each cell of the tiles, which have a frame.
+        (Engine::Landmarks, Motion::centers(K::N8), 21),
         (Engine::Wavefront, Motion::centers(K::N8), 20),
         // Nodes and blocks of roots, which follow the search, not the map.
         (Engine::Anya, Motion::corners(K::ANY), 16),

@@ -95,7 +95,7 @@ def all_calls():
 
 
 # The engine that takes an option.
-TAKERS = {"heuristic": "astar", "levels": "subgoal", "memory": "subgoal", "side": "hpa"}
+TAKERS = {"heuristic": "astar", "levels": "subgoal", "memory": "subgoal", "side": "hpa", "landmarks": "landmarks"}
 
 
 class Things:
@@ -173,6 +173,7 @@ class Things:
             "engine": "astar",
             "values": [1, 3],
             "side": 2,
+            "landmarks": 4,
             "cells": [(0, 0), (1, 2)],
             "shape": (3, 4),
             "world": mediant.World(0.5, shape=(6, 9)),

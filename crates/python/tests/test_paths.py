@@ -12,7 +12,7 @@ import pytest
 import slow
 
 KS = (2, 3, 4, 5, "any")
-OPTIMAL = {"astar", "dijkstra", "canonical", "jps", "jps-block", "jps-plus", "anya", "subgoal"}
+OPTIMAL = {"astar", "dijkstra", "canonical", "jps", "jps-block", "jps-plus", "anya", "subgoal", "landmarks"}
 # The number of pairs of one of `KS` and one of the five rules that each engine takes.
 TAKES = {
     "astar": 20,
@@ -29,6 +29,7 @@ TAKES = {
     "subgoal-theta": 8,
     "hpa": 4,
     "chpa": 4,
+    "landmarks": 20,
 }
 ANY_ANGLE = {"theta", "lazy-theta", "subgoal-theta"}
 

@@ -206,7 +206,7 @@ fn refused(line: &str, message: &str) {
 
 #[test]
 fn what_does_not_go_together_is_refused() {
-    let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal, hpa, chpa";
+    let centers = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, subgoal, hpa, chpa, landmarks";
     for (options, message) in [
         ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
         (
@@ -216,7 +216,7 @@ fn what_does_not_go_together_is_refused() {
         (
             "--engine anya --corners one",
             "anya needs placement corner; for center choose astar, dijkstra, wavefront, canonical, jps, jps-block, \
-             jps-plus, theta, lazy-theta, subgoal, hpa, chpa",
+             jps-plus, theta, lazy-theta, subgoal, hpa, chpa, landmarks",
         ),
         (
             "--reference anya",
@@ -245,7 +245,7 @@ fn what_does_not_go_together_is_refused() {
         ),
         (
             "--engine anya --index x.idx",
-            "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+            "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks",
         ),
         (
             "--engine anya --heuristic zero",
@@ -256,7 +256,7 @@ fn what_does_not_go_together_is_refused() {
     }
     refused(
         "build builtin:cave --engine anya -o x.idx",
-        "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+        "anya has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks",
     );
     refused(
         "build builtin:cave --engine jps-plus --smooth -o x.idx",

@@ -81,7 +81,7 @@ fn engines_and_values_that_do_not_exist() {
         "run builtin:cave --engine warp",
         "invalid value 'warp' for '--engine <ENGINE>' [possible values: auto, astar, dijkstra, wavefront, \
          canonical, jps, jps-block, \
-         jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; see --help",
+         jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa, landmarks]; see --help",
     );
     check(
         "run builtin:cave --engine canonical --variant best",
@@ -173,7 +173,7 @@ fn options_that_do_not_go_together() {
 #[test]
 fn what_an_engine_does_not_take() {
     let jumpers = "leave it out, or choose jps, jps-block";
-    let indexed = "jps-plus, subgoal, subgoal-theta, hpa, chpa";
+    let indexed = "jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks";
     for (options, message) in [
         (
             "--engine dijkstra --heuristic hk",
@@ -207,7 +207,7 @@ fn what_an_engine_does_not_take() {
     }
     check(
         "build builtin:cave --engine canonical -o x.idx",
-        "canonical has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa",
+        "canonical has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks",
     );
     check(
         "build builtin:cave --engine jps-plus --placement center --gap open -o x.idx",

@@ -254,7 +254,7 @@ fn options_that_an_engine_does_not_take_are_refused() {
             "--engine chpa --placement corner",
             "chpa needs placement center; for corner choose astar, dijkstra, wavefront, canonical, jps, \
              jps-block, jps-plus, \
-             theta, lazy-theta, anya, subgoal, subgoal-theta"
+             theta, lazy-theta, anya, subgoal, subgoal-theta, landmarks"
                 .to_owned(),
         ),
         ("--engine hpa --side 65", "a cluster or segment of 65 × 65 cells: the side must be 2 to 64".to_owned()),

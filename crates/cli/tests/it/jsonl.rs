@@ -102,7 +102,8 @@ fn the_record_of_a_run_is_complete() {
         "map": "cave.map", "scenario": "cave.map.scen", "queries": 32, "repeat": 1,
         "engine": "astar", "k": 3, "placement": "center", "corners": "never", "gap": "open",
         "heuristic": "hk", "variant": null, "jump_limit": null, "keep_intermediate": false,
-        "levels": null, "side": null, "unstraightened": false, "second": null, "step": null, "detour": null,
+        "levels": null, "side": null, "landmarks": null, "unstraightened": false, "second": null, "step": null,
+        "detour": null,
         "smooth": false, "smoothing": null, "any_angle": null, "guarantee": "optimal(3)",
     });
     for (key, value) in expected.as_object().expect("an object") {

@@ -128,7 +128,10 @@ fn an_index_for_something_else_is_refused() {
         check_mismatch(&refused(&format!("builtin:{options}")), "cave.idx", [built, needed]);
     }
     let none = refused("builtin:cave --engine jps");
-    assert_eq!(none, "error: jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa\n");
+    assert_eq!(
+        none,
+        "error: jps has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks\n"
+    );
 }
 
 #[test]
@@ -278,7 +281,7 @@ fn setups_without_a_subgoal_graph_are_refused() {
             "--engine subgoal-theta --placement center",
             "subgoal-theta needs placement corner; for center choose astar, dijkstra, wavefront, \
              canonical, jps, jps-block, \
-             jps-plus, theta, lazy-theta, subgoal, hpa, chpa",
+             jps-plus, theta, lazy-theta, subgoal, hpa, chpa, landmarks",
         ),
     ] {
         refused(options, message);

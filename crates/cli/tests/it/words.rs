@@ -28,7 +28,7 @@ fn what_is_no_engine_is_told_with_those_that_are() {
     check(
         "run builtin:cave --engine jps++",
         "invalid value 'jps++' for '--engine <ENGINE>' [possible values: auto, astar, dijkstra, wavefront, canonical, \
-         jps, jps-block, jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa]; tip: a similar \
+         jps, jps-block, jps-plus, theta, lazy-theta, anya, subgoal, subgoal-theta, hpa, chpa, landmarks]; tip: a similar \
          value exists: 'jps'; see --help",
     );
     // Only engines whose paths are the shortest at any angle are references.

@@ -153,6 +153,12 @@ impl Landmarks {
         Ok(Self { identity: graph.identity(), lines: Arc::new(lines), shift: rounding.shift })
     }
 
+    /// The number of landmarks that are made for a count: 4, 8 or 16.
+    #[must_use]
+    pub fn rounded(count: usize) -> usize {
+        lines::rounded(count)
+    }
+
     /// The memory that so many landmarks of a graph take, in bytes.
     #[must_use]
     pub fn bytes(graph: &CostGraph, count: usize) -> usize {

@@ -37,11 +37,28 @@ impl Landmarks {
         cells: &[(u32, u32)],
         interrupt: &Interrupt,
     ) -> Result<Self, LandmarksError> {
+        match self.repaired_if_quicker(before, after, cells, interrupt)? {
+            Some(repaired) => Ok(repaired),
+            None => Self::new(after, self.count(), interrupt),
+        }
+    }
+
+    /// [`repaired`](Self::repaired), but `None` where the landmarks have to be made anew.
+    ///
+    /// # Errors
+    /// As for [`repaired`](Self::repaired).
+    pub fn repaired_if_quicker(
+        &self,
+        before: &CostGraph,
+        after: &Arc<CostGraph>,
+        cells: &[(u32, u32)],
+        interrupt: &Interrupt,
+    ) -> Result<Option<Self>, LandmarksError> {
         self.identity.check_equal("the landmarks", ("the graph before", before.identity()))?;
         let every_map = Identity { map: None, ..self.identity };
         every_map.check("the landmarks", ("the graph", after.identity()))?;
         if before.map().scale() != after.map().scale() || before.size() != after.size() {
-            return Self::new(after, self.count(), interrupt);
+            return Ok(None);
         }
         let changed = Identity { map: Some(before.map().id_with(cells, after.map())), ..self.identity };
         changed.check_equal("the change", ("the graph", after.identity()))?;
@@ -51,18 +68,18 @@ impl Landmarks {
         }
         let most = lines.states().saturating_mul(lines.count()) / SLOWNESS;
         let Some(seeds) = lowered(before, after, cells, most / lines.count()) else {
-            return Self::new(after, self.count(), interrupt);
+            return Ok(None);
         };
         if !seeds.is_empty() {
             let (graph, shift, lines_after) = (after.as_ref(), self.shift, lines.edit());
             let mut lowering =
                 Lowering { graph, lines: lines_after, shift, slot: 0, open: BinaryHeap::new() };
             if !lowering.run(&seeds, (self.count(), most), interrupt)? {
-                return Self::new(after, self.count(), interrupt);
+                return Ok(None);
             }
             lines = Arc::new(lowering.lines.finish());
         }
-        Ok(Self { identity: after.identity(), lines, shift: self.shift })
+        Ok(Some(Self { identity: after.identity(), lines, shift: self.shift }))
     }
 }
 

@@ -38,13 +38,13 @@ impl EngineIndex for CostIndex {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
         let search = if self.is_guided { CostAStar::new(graph) } else { CostAStar::dijkstra(graph) };
-        Ok(boxed(CostSearch { search, space: self.space.clone(), is_apart: true }))
+        Ok(boxed(CostSearch::new(search, &self.space)))
     }
 
     fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
-        following(search, |search: &mut CostSearch| {
+        following(search, |search: &mut CostSearch<CostAStar>| {
             search.search.follow(Arc::clone(&self.graph));
-            (search.space, search.is_apart) = (self.space.clone(), true);
+            search.follow(&self.space);
             Ok::<_, Error>(())
         })
     }
@@ -54,7 +54,11 @@ impl EngineIndex for CostIndex {
     }
 
     fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
-        let Some(surface) = self.space.surface() else { return Ok(None) };
+        let (Some(surface), ConfiguredEngine::AStar(_) | ConfiguredEngine::Dijkstra) =
+            (self.space.surface(), engine)
+        else {
+            return Ok(None);
+        };
         shared(Self::new(&self.space, surface, engine)).map(Some)
     }
 
@@ -65,15 +69,27 @@ impl EngineIndex for CostIndex {
     }
 }
 
-/// A search on costs that knows from the connected components whether there is a way.
-struct CostSearch {
-    search: CostAStar,
+/// A search on costs that knows from the connected components whether there is a way. In a space without
+/// costs every cell costs 1, and its paths have lengths.
+pub(super) struct CostSearch<S> {
+    pub(super) search: S,
     space: Space,
     /// Whether there is no way between the ends that were asked for last.
     is_apart: bool,
 }
 
-impl Planner for CostSearch {
+impl<S: Planner> CostSearch<S> {
+    pub(super) fn new(search: S, space: &Space) -> Self {
+        Self { search, space: space.clone(), is_apart: true }
+    }
+
+    /// Forgets the last query: the search is one of this space now.
+    pub(super) fn follow(&mut self, space: &Space) {
+        (self.space, self.is_apart) = (space.clone(), true);
+    }
+}
+
+impl<S: Planner> Planner for CostSearch<S> {
     fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.is_apart = true;
         self.space.check_end(End::Start, query.start)?;
@@ -101,14 +117,21 @@ impl Planner for CostSearch {
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        if self.is_apart { None } else { self.search.path_to(at) }
+        if self.is_apart {
+            return None;
+        }
+        let path = self.search.path_to(at)?;
+        Some(if self.space.has_costs() { path } else { Path::new(path.into_waypoints()) })
     }
 
     fn guarantee(&self) -> Guarantee {
-        self.search.guarantee()
+        match (self.search.guarantee(), self.space.has_costs()) {
+            (Guarantee::Cheapest(k), false) => Guarantee::Optimal(k),
+            (guarantee, _) => guarantee,
+        }
     }
 
     fn identity(&self) -> Identity {
-        self.search.identity()
+        self.space.identity()
     }
 }

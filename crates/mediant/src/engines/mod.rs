@@ -15,6 +15,7 @@ mod earlier;
 mod grid_search;
 mod jps_plus;
 mod jumps;
+mod landmarks;
 mod segments;
 mod source;
 mod subgoal_theta;
@@ -34,7 +35,8 @@ pub(crate) use self::source::Source;
 use self::{anya::AnyaIndex, canonical::CanonicalIndex, grid_search::GridSearchIndex, jumps::JumpIndex};
 pub use self::{
     canonical::CanonicalOptions, clusters::HpaOptions, grid_search::GuidedOptions, jps_plus::JpsPlusOptions,
-    jumps::JumpOptions, segments::ChpaOptions, subgoal_theta::SubgoalThetaOptions, subgoals::SubgoalOptions,
+    jumps::JumpOptions, landmarks::LandmarkOptions, segments::ChpaOptions,
+    subgoal_theta::SubgoalThetaOptions, subgoals::SubgoalOptions,
 };
 #[cfg(feature = "all-engines")]
 use self::{
@@ -156,6 +158,11 @@ pub(crate) trait EngineIndex: Send + Sync {
         None
     }
 
+    /// The number of its landmarks.
+    fn landmarks(&self) -> Option<NonZeroU32> {
+        None
+    }
+
     /// Its hub labels.
     fn labels(&self) -> Option<&dyn HasLabels> {
         None
@@ -188,6 +195,10 @@ pub(crate) fn prepare(
                 Placed::Corners($layers) => shared($index),
             }
         };
+    }
+    #[cfg(feature = "costs")]
+    if let E::Landmarks(own) = setup.engine {
+        return shared(landmarks::LandmarkIndex::new(space, own, source));
     }
     #[cfg(feature = "costs")]
     if let Some(surface) = space.surface() {
@@ -226,6 +237,8 @@ pub(crate) fn prepare(
         E::Hpa(own) => shared(ClusterIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
         #[cfg(feature = "all-engines")]
         E::Chpa(own) => shared(SegmentIndex::new(own, Centers::layers(space, engine)?.graph(k?)?, source)),
+        #[cfg(feature = "all-engines")]
+        E::Landmarks(_) => Err(SetupError::NotBuilt { engine }.into()),
         #[cfg(not(feature = "all-engines"))]
         _ => Err(SetupError::NotBuilt { engine }.into()),
     }

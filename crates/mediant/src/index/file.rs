@@ -52,7 +52,7 @@ impl Index {
         let engine = self.setup.engine.kind();
         let payload = self.prepared.to_bytes(interrupt)?;
         let payload = payload.ok_or_else(|| match self.space.has_costs() {
-            true => SetupError::INDEX_ON_COSTS,
+            true => SetupError::without_index_on_costs(engine),
             false => SetupError::without_index(engine),
         })?;
         Ok(IndexFile::new(key(engine, &self.space)?, payload))

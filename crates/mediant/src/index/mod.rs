@@ -26,7 +26,7 @@ use crate::{
     never::NEVER,
     option::{
         EngineOption, Levels, OptionValue,
-        table::{LEVELS, SIDE},
+        table::{LANDMARKS, LEVELS, SIDE},
     },
     setup::Setup,
     setup_error::SetupError,
@@ -34,8 +34,8 @@ use crate::{
 };
 
 /// An engine's preparation in a space, before the first query: nothing, a pruning rule, a jump table, dead
-/// ends, hub labels, a subgoal graph, clusters or segments. It never changes; all threads can share it, and
-/// clones do. [`planner`](Self::planner) makes the planners on it.
+/// ends, hub labels, a subgoal graph, clusters, segments or landmarks. It never changes; all threads can
+/// share it, and clones do. [`planner`](Self::planner) makes the planners on it.
 ///
 /// ```
 /// use mediant::{Engine, K, Map, Motion, Query};
@@ -186,12 +186,13 @@ impl Index {
     }
 
     /// The same index for planners with other options of its engine, such as another heuristic. Options that
-    /// are not named take their defaults, except those that decided what was prepared: the levels and the
-    /// side stay as they are. The smoothing stays, too.
+    /// are not named take their defaults, except those that decided what was prepared: the levels, the side
+    /// and the landmarks stay as they are. The smoothing stays, too.
     ///
     /// # Errors
-    /// [`Error::Setup`] for another engine, or options that do not fit together; [`Error::Levels`] and
-    /// [`Error::Side`] for options that decide what is prepared, if the index has others.
+    /// [`Error::Setup`] for another engine, or options that do not fit together; [`Error::Levels`],
+    /// [`Error::Side`] and [`Error::LandmarkCount`] for options that decide what is prepared, if the index
+    /// has others.
     pub fn with_options(self, engine: impl Into<ConfiguredEngine>) -> Result<Self, Error> {
         let setup = Setup { engine: engine.into(), ..self.setup };
         self.space.check_setup(&setup)?;
@@ -303,8 +304,8 @@ impl Index {
         self.prepared.labels()
     }
 
-    /// The value of an option, as [`ConfiguredEngine::value`], but levels and side as they are in the index:
-    /// where the setup leaves them out, a saved index decides them.
+    /// The value of an option, as [`ConfiguredEngine::value`], but levels, side and landmarks as they are in
+    /// the index: where the setup leaves them out, a saved index decides them.
     #[must_use]
     pub fn value(&self, option: &EngineOption) -> Option<OptionValue> {
         match option.name {
@@ -312,6 +313,7 @@ impl Index {
             name if name == SIDE.name => {
                 self.prepared.side().and_then(NonZeroU32::new).map(OptionValue::Number)
             }
+            name if name == LANDMARKS.name => self.prepared.landmarks().map(OptionValue::Number),
             _ => self.setup.engine.value(option),
         }
     }

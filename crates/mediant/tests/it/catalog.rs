@@ -105,8 +105,9 @@ fn every_setup_makes_the_planner_that_it_promises() {
         }
     }
     // On grid graphs: 4 setups of astar, 1 each of dijkstra and wavefront, 4 of canonical, 5 of jps, 3 each
-    // of theta and lazy-theta, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4 of jps-plus.
-    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 3) + 2 * (5 + 4));
+    // of theta and lazy-theta, 2 of landmarks, and 3 that are smoothed; for k ≤ 3 also 5 of jps-block and 4
+    // of jps-plus.
+    let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 2 + 3) + 2 * (5 + 4));
     // anya, plain and smoothed, for each k and for ∞ under each gap rule.
     let anya = 5 * 2 * 2;
     // 7 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3
@@ -158,8 +159,8 @@ fn every_engine_takes_the_placements_that_it_says() {
                     PlacementKind::Corner => "placement center; for corner choose astar, dijkstra,",
                 };
                 let others = match placement {
-                    PlacementKind::Center => " lazy-theta, subgoal, hpa, chpa",
-                    PlacementKind::Corner => " lazy-theta, anya, subgoal, subgoal-theta",
+                    PlacementKind::Center => " lazy-theta, subgoal, hpa, chpa, landmarks",
+                    PlacementKind::Corner => " lazy-theta, anya, subgoal, subgoal-theta, landmarks",
                 };
                 assert!(
                     said.starts_with(&format!("{engine} needs {needs}")) && said.ends_with(others),
@@ -353,7 +354,7 @@ fn setups_are_read_as_they_are_written() {
 fn each_wrong_part_is_named() {
     let wrong = |text: &str| text.parse::<Setup>().expect_err("a wrong part").to_string();
     let names = "astar, dijkstra, wavefront, canonical, jps, jps-block, jps-plus, theta, lazy-theta, anya, \
-                 subgoal, subgoal-theta, hpa, chpa";
+                 subgoal, subgoal-theta, hpa, chpa, landmarks";
     let form = "expected ENGINE[:K[:RULE]][,OPTION…], found `warp`";
     assert_eq!(wrong("warp"), format!("{form}: the engines are {names}"));
     for k in ["", "x", "1", "-3"] {
@@ -390,10 +391,13 @@ fn each_wrong_part_is_named() {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
     }
     assert!(wrong("jps,best").ends_with(
-        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, levels=contracted, levels=labels, memory=BYTES, side=N, unstraightened, second=HEURISTIC, \
+        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, levels=contracted, levels=labels, memory=BYTES, side=N, landmarks=N, unstraightened, second=HEURISTIC, \
          step=N, detour=N, smooth, taut"
     ));
     assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
+    assert!(wrong("landmarks,landmarks=17").ends_with("17 landmarks: choose 1 to 16"));
+    assert!(wrong("landmarks:9").ends_with("landmarks needs a k from 2 to 8, found 9"));
+    assert_eq!("ALT:4:open".parse(), "landmarks:4:open".parse::<Setup>());
     assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical, chpa"));
 }
 
@@ -420,7 +424,8 @@ fn only_some_engines_have_an_index_or_distances() {
     };
     for engine in Engine::ALL.into_iter().filter(|&engine| engine.capabilities().index.is_none()) {
         let setup = plain(engine);
-        let error = format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa");
+        let error =
+            format!("{engine} has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks");
         assert_eq!(build(setup, &map()).map_err(|error| error.to_string()), Err(error));
     }
     for engine in Engine::ALL {

@@ -191,7 +191,7 @@ fn the_next_path_on_a_small_map_is_searched_at_once() {
 /// `auto` knows how much is asked, and with options takes an engine that has them.
 #[test]
 fn the_engine_follows_what_is_asked() {
-    use Engine::{Canonical, Dijkstra, JpsBlock, JpsPlus, Subgoal};
+    use Engine::{Canonical, Dijkstra, JpsBlock, JpsPlus, Landmarks, Subgoal};
     let space =
         |motion| Map::from_rows(["....", ".##.", "...."]).expect("a map").space(motion).expect("a space");
     let centers = space(Motion::centers(K::N8));
@@ -213,7 +213,9 @@ fn the_engine_follows_what_is_asked() {
         (Motion::new(K::N8, CornerRule::One), Some(JpsPlus)),
         (Motion::corners(k(12)), Some(Subgoal)),
         (Motion::corners(K::ANY), Some(Subgoal)),
-        (Motion::centers(K::N16), None),
+        (Motion::centers(K::N16), Some(Landmarks)),
+        (Motion::centers(k(8)), Some(Landmarks)),
+        (Motion::centers(k(9)), None),
     ] {
         let found = asked(&space(motion), Demand::Index);
         assert_eq!(found.as_ref().ok(), engine.as_ref(), "{motion}");
@@ -402,7 +404,11 @@ fn an_index_takes_the_options_that_it_serves() {
                 Err(error) => {
                     let is_right = matches!(
                         error,
-                        Error::Setup(_) | Error::Levels { .. } | Error::Side { .. } | Error::Memory { .. }
+                        Error::Setup(_)
+                            | Error::Levels { .. }
+                            | Error::Side { .. }
+                            | Error::LandmarkCount { .. }
+                            | Error::Memory { .. }
                     );
                     assert!(is_right, "{one}, {other}: {error}");
                     assert!(one != other, "{one}");

@@ -79,6 +79,7 @@ fn preparations_stop() {
         Engine::SubgoalTheta,
         Engine::Hpa,
         Engine::Chpa,
+        Engine::Landmarks,
     ] {
         let space = space(engine);
         check(engine.name(), |limits| space.within(limits).prepare(engine));
@@ -217,7 +218,7 @@ fn saving_stops() {
     let file = folder.path().join("map.index");
     let space = map().space(Motion::centers(K::N8)).expect("a space");
     std::fs::write(&file, "older").expect("room");
-    for engine in [Engine::Subgoal, Engine::JpsPlus, Engine::Hpa, Engine::Chpa] {
+    for engine in [Engine::Subgoal, Engine::JpsPlus, Engine::Hpa, Engine::Chpa, Engine::Landmarks] {
         let index = space.prepare(engine).expect("an index");
         check(&format!("saving {engine}"), |limits| {
             let saved = index.within(limits).save(&file);

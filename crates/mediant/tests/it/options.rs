@@ -39,9 +39,9 @@ fn every_engine_takes_the_options_that_it_says() {
             }
         }
     }
-    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, memory, side
-    // and unstraightened; second, step and detour.
-    assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 1 + 2 + 1 + 3);
+    // The engines that take heuristic, variant, jump limit, intermediate jump points, levels, memory, side,
+    // landmarks and unstraightened; second, step and detour.
+    assert_eq!(pairs, 8 + 2 + 2 + 3 + 3 + 1 + 2 + 1 + 1 + 3);
 }
 
 #[test]

@@ -52,6 +52,7 @@ Engine: TypeAlias = Literal[
     "subgoal-theta",
     "hpa",
     "chpa",
+    "landmarks",
 ]
 Heuristic: TypeAlias = Literal["hk", "euclidean", "zero"]
 Smooth: TypeAlias = Literal["linear", "taut"]

@@ -5,6 +5,7 @@ mod costmaps;
 mod edits;
 mod fields;
 mod kept;
+mod landmarks;
 mod queries;
 mod rasters;
 mod refused;
@@ -96,8 +97,8 @@ impl World {
         random_vertex(rng, self.map.grid(), self.rules.placement())
     }
 
-    fn planners(&self) -> [Planner; 2] {
-        [Engine::AStar, Engine::Dijkstra]
+    fn planners(&self) -> [Planner; 3] {
+        [Engine::AStar, Engine::Dijkstra, Engine::Landmarks]
             .map(|engine| self.space.planner(engine).unwrap_or_else(|error| panic!("{error}")))
     }
 
@@ -177,7 +178,7 @@ fn auto_is_a_star() {
     assert_eq!(engine(Demand::Paths(100_000)), Ok(Engine::AStar));
     assert_eq!(engine(Demand::Changing { paths: 9 }), Ok(Engine::AStar));
     assert_eq!(engine(Demand::Distances), Ok(Engine::Dijkstra));
-    assert!(engine(Demand::Index).is_err());
+    assert_eq!(engine(Demand::Index), Ok(Engine::Landmarks));
     let (setup, choice) = space.setup(&Call::default(), Demand::Paths(9)).expect("auto");
     assert_eq!(
         (setup.engine.kind(), choice.map(|choice| choice.engine)),

@@ -120,7 +120,7 @@ fn every_wish_is_that_of_brute_force() {
             check(&world, planner, &Query::new(start, shut).nearest(), nearest_best, (!is_reached, false));
             check(&world, planner, &Query::new(shut, goal).snap(), snapped_best, (false, false));
         }
-        let [planner, dijkstra] = &mut planners;
+        let [planner, dijkstra, _] = &mut planners;
         let distance = best.map(|(cost, ..)| world.to_f64(cost));
         assert_eq!(planner.distance((start, goal)), Ok(distance), "{}", world.about);
         let (guided, blind) = (planner.find_counted((start, goal)), dijkstra.find_counted((start, goal)));

@@ -47,7 +47,7 @@ fn what_there_is_not_on_costs_is_refused() {
         assert_eq!(error.code(), ErrorCode::Motion);
     }
     assert_eq!(costs.space(-1).unwrap_err().code(), ErrorCode::K);
-    let known = [Engine::AStar, Engine::Dijkstra];
+    let known = [Engine::AStar, Engine::Dijkstra, Engine::Landmarks];
     for engine in Engine::ALL.into_iter().filter(|engine| !known.contains(engine)) {
         for motion in [Motion::centers(3), Motion::corners(5)] {
             let error = costs.space(motion).expect("a small k").prepare(engine).expect_err("no costs");
@@ -71,7 +71,8 @@ fn what_there_is_not_on_costs_is_refused() {
     let code = |error: Error| (error.code(), error.to_string().starts_with("on costs of cells there is no"));
     let refused = (ErrorCode::EngineWithout, true);
     let index = space.prepare(Engine::AStar).expect("it knows costs");
-    assert_eq!(code(index.to_bytes().unwrap_err()), refused);
+    let unsaved = index.to_bytes().unwrap_err();
+    assert_eq!((unsaved.code(), &*unsaved.to_string()), (refused.0, "astar has no index: choose landmarks"));
     assert_eq!(code(index.planner().find_except([(0, 0), (2, 0)], &Exceptions::new()).unwrap_err()), refused);
     assert_eq!(code(space.widest_path((0, 0), (2, 0), 0.5).unwrap_err()), refused);
     let smoothed = index.clone().with_smoothing(Some(Smoothing::Taut));

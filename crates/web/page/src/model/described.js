@@ -61,6 +61,12 @@ export const ENGINES = {
     name: "CHPA*",
     how: "Plans checkpoints over prepared segments of the map, then searches from one to the next.",
   },
+  landmarks: {
+    name: "Landmarks (ALT)",
+    how:
+      "A* guided by the prepared distances of all vertices from a few landmarks; made for costs of " +
+      "cells.",
+  },
 };
 
 /** The largest k that an engine takes. Beyond it there is only "any". */
