@@ -304,8 +304,16 @@ impl PathCosts for CostGraph {
         self.least_cost(v)
     }
 
+    fn least_at_any_angle(&self, v: Vector) -> Cost {
+        // A unit less: the costs of moves and of segments are rounded.
+        let step = |v| self.least_cost(v).to_bits().saturating_sub(1) as f64;
+        let (x, y) = v.abs();
+        let (x, y) = (f64::from(x) * step(Vector::new(1, 0)), f64::from(y) * step(Vector::new(0, 1)));
+        Cost::from_bits(((x * x + y * y).sqrt() * (1.0 - 4.0 * f64::EPSILON)) as u64)
+    }
+
     fn cost(&self, path: &Path) -> Cost {
-        self.path_cost(path).unwrap_or(Cost::MAX)
+        self.segments_cost(path).unwrap_or(Cost::MAX)
     }
 
     fn unit(&self) -> f64 {

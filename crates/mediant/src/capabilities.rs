@@ -121,6 +121,10 @@ const SEARCH: Capabilities = Capabilities {
 const THETA: Capabilities =
     Capabilities { guarantee: Promise::Suboptimal, promise: "none", any_angle: true, ..SEARCH };
 
+/// Such a search that knows costs.
+const THETA_ON_COSTS: Capabilities =
+    Capabilities { promise: "none; with costs none over N(k) is cheaper", costs: true, ..THETA };
+
 /// A search on prepared subgoals.
 const SUBGOALS: Capabilities = Capabilities {
     grid_graph: false,
@@ -218,14 +222,14 @@ const TABLE: [Capabilities; Engine::ALL.len()] = [
         how: "A* in which the parent may be any vertex that is seen: paths at any angle.",
         paper: "Daniel 2010",
         papers: "Daniel, Nash, Koenig & Felner 2010",
-        ..THETA
+        ..THETA_ON_COSTS
     },
     Capabilities {
         title: "Lazy Theta*",
         how: "Theta* that tests whether a vertex is seen only when it expands it.",
         paper: "Nash 2010",
         papers: "Nash, Koenig & Tovey 2010",
-        ..THETA
+        ..THETA_ON_COSTS
     },
     Capabilities {
         title: "Anya",

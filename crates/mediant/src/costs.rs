@@ -18,10 +18,13 @@ use crate::{
 /// inside: results are the same on every platform, and where all cells cost 1 they are lengths.
 ///
 /// **What there is on costs.** [`space`](Self::space) makes a [`Space`] for k = 2 to 8, with the queries,
-/// limits, fields, tables and edits that all spaces have. Its engines are A*, Dijkstra's algorithm, and A* on
-/// landmarks, which are its index; others say so. [`Path::cost`](crate::Path::cost), fields and limits are in
+/// limits, fields, tables and edits that all spaces have. Its engines are A*, Dijkstra's algorithm, A* on
+/// landmarks, which are its index, Theta* and Lazy Theta*; others say so. The paths of the last two, and
+/// smoothed ones ([`Smoothing::Linear`](crate::Smoothing::Linear)), turn at any angle, and cost no more than
+/// the least over N(k). [`Path::cost`](crate::Path::cost), fields and limits are in
 /// costs, [`Path::length`](crate::Path::length), tolerances and what is 'nearest' in cells. The bounds
-/// against paths at any angle say nothing on costs. Not there yet: smoothing, exceptions.
+/// against paths at any angle say nothing on costs. There are no exceptions, and
+/// paths are not pulled taut.
 #[derive(Clone)]
 pub struct Costs {
     map: Map,

@@ -137,7 +137,7 @@ impl Setup {
         match self.guarantee() {
             Guarantee::Optimal(k) | Guarantee::Cheapest(k) => Some(K::Finite(k)),
             Guarantee::OptimalAnyAngle => Some(K::Any),
-            Guarantee::AtMost(_) | Guarantee::Suboptimal => None,
+            Guarantee::AtMost(_) | Guarantee::AtMostCheapest(_) | Guarantee::Suboptimal => None,
         }
     }
 

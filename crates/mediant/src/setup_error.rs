@@ -188,8 +188,8 @@ pub enum SetupError {
 }
 
 impl SetupError {
-    pub(crate) const SMOOTHING_ON_COSTS: Self =
-        Self::WithCosts { what: "smoothing", instead: "leave it out" };
+    pub(crate) const TAUT_ON_COSTS: Self =
+        Self::WithCosts { what: "taut smoothing", instead: "smooth linearly, which never costs more" };
     #[cfg(feature = "costs")]
     pub(crate) const HEURISTIC_ON_COSTS: Self =
         Self::WithCosts { what: "heuristic but hk and zero", instead: "leave it out" };
@@ -199,6 +199,8 @@ impl SetupError {
     };
     pub(crate) const WIDEST_ON_COSTS: Self =
         Self::WithCosts { what: "widest path", instead: "raise the costs of cells near walls" };
+    pub(crate) const SMOOTHING_OVER_ELEVATION: Self =
+        Self::WithCosts { what: "smoothing over elevation", instead: "take a greater k" };
     pub(crate) const EDITS_OVER_ELEVATION: Self =
         Self::WithCosts { what: "edit of elevations", instead: "make the map to walk on anew" };
 

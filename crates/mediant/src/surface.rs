@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{Identity, Interrupt};
-use mediant_search::{Path, PathCosts};
+use mediant_search::{Path, PathCosts, Smoothing};
 
 #[cfg(not(feature = "costs"))]
 pub(crate) use self::absent::Surface;
@@ -27,7 +27,7 @@ pub(crate) trait Weighed {
 mod given {
     use std::sync::Arc;
 
-    use mediant_costs::CostGraph;
+    use mediant_costs::{CostGraph, smooth};
     use mediant_grid::{Identity, Rectangle};
     use mediant_search::{Path, PathCosts};
 
@@ -69,7 +69,14 @@ mod given {
         }
 
         fn cost(&self, path: &Path) -> Option<f64> {
-            self.graph.path_cost(path).map(|cost| self.graph.to_f64(cost))
+            self.graph.segments_cost(path).map(|cost| self.graph.to_f64(cost))
+        }
+    }
+
+    impl Surface {
+        /// A path of straight segments that costs no more.
+        pub(crate) fn smooth(&self, path: &Path) -> Path {
+            smooth(&self.graph, path).map_or_else(|| path.clone(), |(smoothed, _)| smoothed)
         }
     }
 }
@@ -104,6 +111,12 @@ mod absent {
             match *self {}
         }
     }
+
+    impl Surface {
+        pub(crate) fn smooth(&self, _: &Path) -> Path {
+            match *self {}
+        }
+    }
 }
 
 impl Space {
@@ -118,8 +131,8 @@ impl Space {
         self.surface().map(|surface| surface as &dyn Weighed).or(walk)
     }
 
-    /// The cost of a path over N(k) in this space: its length, but where cells have costs the cost by these.
-    /// `None` if the path has no cost by them, since one of its moves is not legal or none of N(k).
+    /// The cost of a path in this space: its length, but where cells have costs the cost by these. `None` if
+    /// the path has no cost by them, since one of its segments is not legal.
     ///
     /// A [rest](Path::rest) of a path has to be measured so, and so has a path after an edit of costs.
     #[must_use]
@@ -159,8 +172,18 @@ impl Space {
             if !engine.capabilities().costs {
                 return Err(SetupError::on_costs(engine));
             }
+            if setup.smoothing == Some(Smoothing::Taut) {
+                return Err(SetupError::TAUT_ON_COSTS);
+            }
+        }
+        if self.walk().is_some() {
+            let known = [Engine::AStar, Engine::Dijkstra];
+            if !known.contains(&setup.engine.kind()) {
+                let others = known.map(Engine::name).join(", ");
+                return Err(SetupError::Costs { engine: setup.engine.kind(), others });
+            }
             if setup.smoothing.is_some() {
-                return Err(SetupError::SMOOTHING_ON_COSTS);
+                return Err(SetupError::SMOOTHING_OVER_ELEVATION);
             }
         }
         setup.check()

@@ -154,7 +154,7 @@ impl Answer {
     /// ```
     #[must_use]
     pub fn any_angle_lower_bound(&self, guarantee: Guarantee, rules: Rules) -> Option<f64> {
-        let path = self.path().filter(|_| !matches!(guarantee, Guarantee::Cheapest(_)))?;
+        let path = self.path().filter(|_| !guarantee.is_of_costs())?;
         let (start, goal) = (path.waypoints().first()?, path.waypoints().last()?);
         // The rounded sum of a straight path's parts may be less than the straight line.
         Some(guarantee.lower_bound(rules, path.cost(), start.distance(*goal)).min(path.cost()))

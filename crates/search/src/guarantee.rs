@@ -22,19 +22,23 @@ pub enum Guarantee {
     Cheapest(FiniteK),
     /// No path over N(k) is shorter, in the same sense; the path itself has segments at any angle.
     AtMost(FiniteK),
+    /// No path over N(k) costs less on the cost surface; the path itself has segments at any angle.
+    AtMostCheapest(FiniteK),
     /// No legal path at all is shorter.
     OptimalAnyAngle,
     /// Nothing.
     Suboptimal,
 }
 
-/// As `optimal(3)`, `cheapest(3)`, `at most optimal(3)`, `optimal(any)` or `suboptimal`.
+/// As `optimal(3)`, `cheapest(3)`, `at most optimal(3)`, `at most cheapest(3)`, `optimal(any)` or
+/// `suboptimal`.
 impl fmt::Display for Guarantee {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Optimal(k) => f.pad(&format!("optimal({k})")),
             Self::Cheapest(k) => f.pad(&format!("cheapest({k})")),
             Self::AtMost(k) => f.pad(&format!("at most optimal({k})")),
+            Self::AtMostCheapest(k) => f.pad(&format!("at most cheapest({k})")),
             Self::OptimalAnyAngle => f.pad("optimal(any)"),
             Self::Suboptimal => f.pad("suboptimal"),
         }
@@ -61,7 +65,8 @@ impl Guarantee {
     pub fn bound(self, rules: Rules) -> Option<f64> {
         match (self, rules) {
             (Self::OptimalAnyAngle, _) => Some(1.0),
-            (Self::Suboptimal | Self::Cheapest(_), _) | (_, Rules::Center(CornerRule::Always)) => None,
+            (Self::Suboptimal | Self::Cheapest(_) | Self::AtMostCheapest(_), _)
+            | (_, Rules::Center(CornerRule::Always)) => None,
             (Self::Optimal(k) | Self::AtMost(k), Rules::Corner(_)) => Some(bound_at_corners(k)),
             (Self::Optimal(k) | Self::AtMost(k), Rules::Center(CornerRule::One)) => Some(bound_at_centers(k)),
             (_, Rules::Center(CornerRule::Never)) => Some(BOUND_WITHOUT_CORNER_CUTTING),
@@ -99,13 +104,19 @@ impl Guarantee {
         matches!(self, Self::Optimal(_) | Self::Cheapest(_) | Self::OptimalAnyAngle)
     }
 
+    /// Whether it speaks of costs on a cost surface, rather than of lengths.
+    #[must_use]
+    pub const fn is_of_costs(self) -> bool {
+        matches!(self, Self::Cheapest(_) | Self::AtMostCheapest(_))
+    }
+
     /// The guarantee of the same paths once they are smoothed.
     #[must_use]
     pub const fn smoothed(self) -> Self {
         match self {
             Self::Optimal(k) => Self::AtMost(k),
-            Self::Cheapest(_) => Self::Suboptimal,
-            Self::AtMost(_) | Self::OptimalAnyAngle | Self::Suboptimal => self,
+            Self::Cheapest(k) => Self::AtMostCheapest(k),
+            Self::AtMost(_) | Self::AtMostCheapest(_) | Self::OptimalAnyAngle | Self::Suboptimal => self,
         }
     }
 
@@ -115,7 +126,7 @@ impl Guarantee {
     /// guarantee allows. 0 on a cost surface, for which none is known.
     #[must_use]
     pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
-        if let Self::Cheapest(_) = self {
+        if self.is_of_costs() {
             return 0.0;
         }
         self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))

@@ -88,6 +88,12 @@ impl CostTheta {
         Self { is_lazy: true, ..Self::new(graph) }
     }
 
+    /// The same without its heuristic.
+    #[must_use]
+    pub fn unguided(self) -> Self {
+        Self { guide: Guide::Zero, ..self }
+    }
+
     /// The same, guided by landmarks, too. Their bounds are those over N(k).
     ///
     /// # Errors
@@ -311,8 +317,7 @@ impl Planner for CostTheta {
     }
 
     fn guarantee(&self) -> Guarantee {
-        // Of lengths it promises nothing, and no guarantee speaks of costs at any angle.
-        Guarantee::Suboptimal
+        Guarantee::AtMostCheapest(self.graph.k())
     }
 
     fn identity(&self) -> Identity {

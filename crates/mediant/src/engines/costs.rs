@@ -1,28 +1,33 @@
-//! A* and Dijkstra's algorithm on costs of cells.
+//! A*, Dijkstra's algorithm and both kinds of Theta* on costs of cells.
 
 use std::sync::Arc;
 
+#[cfg(feature = "all-engines")]
+use mediant_costs::CostTheta;
 use mediant_costs::{CostAStar, CostGraph};
 use mediant_grid::{Identity, Interrupt, Vertex};
 use mediant_search::{End, Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus};
 
 use super::{Boxed, EngineIndex, boxed, following, shared};
 use crate::{
-    change::Change, configured::ConfiguredEngine, error::Error, option::HeuristicName,
+    change::Change, configured::ConfiguredEngine, engine::Engine, error::Error, option::HeuristicName,
     setup_error::SetupError, space::Space, surface::Surface,
 };
 
-/// A space with costs, and whether its searches are guided.
+/// A space with costs, and which of the engines searches it.
 pub(super) struct CostIndex {
     space: Space,
     graph: Arc<CostGraph>,
+    engine: Engine,
     is_guided: bool,
 }
 
 impl CostIndex {
     pub(super) fn new(space: &Space, surface: &Surface, engine: ConfiguredEngine) -> Result<Self, Error> {
         let is_guided = match engine {
-            ConfiguredEngine::AStar(own) => match own.heuristic.unwrap_or_default() {
+            ConfiguredEngine::AStar(own)
+            | ConfiguredEngine::Theta(own)
+            | ConfiguredEngine::LazyTheta(own) => match own.heuristic.unwrap_or_default() {
                 HeuristicName::Hk => true,
                 HeuristicName::Zero => false,
                 _ => return Err(SetupError::HEURISTIC_ON_COSTS.into()),
@@ -30,42 +35,63 @@ impl CostIndex {
             ConfiguredEngine::Dijkstra => false,
             _ => return Err(SetupError::on_costs(engine.kind()).into()),
         };
-        Ok(Self { space: space.clone(), graph: Arc::clone(&surface.graph), is_guided })
+        let (space, graph) = (space.clone(), Arc::clone(&surface.graph));
+        Ok(Self { space, graph, engine: engine.kind(), is_guided })
     }
+}
+
+/// Makes a search on costs one of another graph.
+macro_rules! follow {
+    ($index:ident, $search:ident, $of:ty) => {
+        following($search, |search: &mut CostSearch<$of>| {
+            search.search.follow(Arc::clone(&$index.graph));
+            search.follow(&$index.space);
+            Ok::<_, Error>(())
+        })
+    };
 }
 
 impl EngineIndex for CostIndex {
     fn search(&self) -> Result<Boxed, Error> {
         let graph = Arc::clone(&self.graph);
+        #[cfg(feature = "all-engines")]
+        if let Engine::Theta | Engine::LazyTheta = self.engine {
+            let search = match self.engine {
+                Engine::Theta => CostTheta::new(graph),
+                _ => CostTheta::lazy(graph),
+            };
+            let search = if self.is_guided { search } else { search.unguided() };
+            return Ok(boxed(CostSearch::new(search, &self.space)));
+        }
         let search = if self.is_guided { CostAStar::new(graph) } else { CostAStar::dijkstra(graph) };
         Ok(boxed(CostSearch::new(search, &self.space)))
     }
 
     fn follow(&self, search: &mut Boxed) -> Result<bool, Error> {
-        following(search, |search: &mut CostSearch<CostAStar>| {
-            search.search.follow(Arc::clone(&self.graph));
-            search.follow(&self.space);
-            Ok::<_, Error>(())
-        })
+        #[cfg(feature = "all-engines")]
+        if let Engine::Theta | Engine::LazyTheta = self.engine {
+            return follow!(self, search, CostTheta);
+        }
+        follow!(self, search, CostAStar)
     }
 
     fn scratch_bytes(&self) -> usize {
+        #[cfg(feature = "all-engines")]
+        if let Engine::Theta | Engine::LazyTheta = self.engine {
+            return CostTheta::scratch_bytes(&self.graph);
+        }
         CostAStar::scratch_bytes(&self.graph)
     }
 
     fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
-        let (Some(surface), ConfiguredEngine::AStar(_) | ConfiguredEngine::Dijkstra) =
-            (self.space.surface(), engine)
-        else {
-            return Ok(None);
-        };
-        shared(Self::new(&self.space, surface, engine)).map(Some)
+        let surface = self.space.surface().filter(|_| engine.kind() == self.engine);
+        surface.map(|surface| shared(Self::new(&self.space, surface, engine))).transpose()
     }
 
     fn repaired(&self, change: &Change, _: &Interrupt) -> Result<Option<Arc<dyn EngineIndex>>, Error> {
         let space = change.after().clone();
         let graph = space.surface().map(|surface| Arc::clone(&surface.graph));
-        graph.map(|graph| shared(Ok(Self { space, graph, is_guided: self.is_guided }))).transpose()
+        graph.map(|graph| shared(Ok(Self { space, graph, ..*self }))).transpose()
     }
 }
 

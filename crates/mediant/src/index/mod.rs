@@ -203,8 +203,9 @@ impl Index {
         Ok(Self { setup: Setup { engine, ..setup }, prepared, ..self })
     }
 
-    /// The same index for planners that smooth their paths, or do not. Where cells have costs, a planner that
-    /// is to smooth says that it does not: [`QueryError::Smoothing`](mediant_search::QueryError::Smoothing).
+    /// The same index for planners that smooth their paths, or do not. Where cells have costs there is
+    /// [`Smoothing::Linear`], by segments that never raise the cost. A planner that is to pull paths taut
+    /// says that it does not: [`QueryError::Smoothing`](mediant_search::QueryError::Smoothing).
     #[must_use]
     pub fn with_smoothing(self, smoothing: Option<Smoothing>) -> Self {
         Self { setup: Setup { smoothing, ..self.setup }, ..self }

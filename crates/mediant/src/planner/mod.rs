@@ -102,10 +102,11 @@ impl Index {
     /// A planner on this index, if there is room for its [scratch memory](Self::scratch_bytes).
     ///
     /// # Errors
-    /// [`Error::OutOfMemory`] where memory is short; [`Error::Setup`] for smoothing where cells have costs.
+    /// [`Error::OutOfMemory`] where memory is short; [`Error::Setup`] for taut smoothing where cells have
+    /// costs.
     pub fn try_planner(&self) -> Result<Planner, Error> {
-        if self.setup().smoothing.is_some() {
-            self.space().check_is_without_costs(SetupError::SMOOTHING_ON_COSTS)?;
+        if self.setup().smoothing == Some(Smoothing::Taut) {
+            self.space().check_is_without_costs(SetupError::TAUT_ON_COSTS)?;
         }
         memory_check::check("the planner", self.scratch_bytes())?;
         Ok(self.planner())
@@ -134,6 +135,9 @@ impl Index {
 type Smoother = Box<dyn Fn(&Path) -> Path + Send>;
 
 fn smoother(space: &Space, smoothing: Smoothing) -> Smoother {
+    if let Some(surface) = space.surface().cloned() {
+        return Box::new(move |path| surface.smooth(path));
+    }
     match space.placed() {
         Placed::Centers(layers) => smoother_in(&layers.free, smoothing),
         Placed::Corners(layers) => smoother_in(&layers.free, smoothing),
@@ -257,11 +261,11 @@ impl Planner {
         Ok((answer, counters))
     }
 
-    /// Refuses to smooth paths where cells have costs.
+    /// Refuses to pull paths taut where cells have costs.
     fn check_smoothing(&self) -> Result<(), QueryError> {
-        match self.smooth.is_some() && self.index.space().has_costs() {
-            true => Err(QueryError::Smoothing),
-            false => Ok(()),
+        match self.index.setup().smoothing {
+            Some(Smoothing::Taut) if self.index.space().has_costs() => Err(QueryError::Smoothing),
+            _ => Ok(()),
         }
     }
 
@@ -284,6 +288,8 @@ impl Planner {
     fn smoothed_bound(&self, lower_bound: f64) -> f64 {
         match self.guarantee {
             Guarantee::AtMost(_) => self.bound().map_or(0.0, |bound| lower_bound / bound),
+            // It is a bound over N(k), and smoothed paths can be cheaper.
+            Guarantee::AtMostCheapest(_) if self.search.guarantee().is_optimal() => 0.0,
             _ => lower_bound,
         }
     }

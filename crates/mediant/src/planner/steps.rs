@@ -45,7 +45,9 @@ impl Planner {
         let space = self.index.space();
         // Smoothing connects nothing that the search does not.
         let unsmoothed = Setup { smoothing: None, ..self.index.search_setup() };
-        let (is_any_angle, query) = (unsmoothed.paths() == K::Any, query.into());
+        // On costs the moves of N(k) connect all that segments do.
+        let is_any_angle = unsmoothed.paths() == K::Any && !space.has_costs();
+        let query = query.into();
         self.begun = Some(match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };

@@ -157,6 +157,7 @@ impl Index {
         match self.guarantee().0 {
             Guarantee::Optimal(k) => format!("shortest over k = {k}"),
             Guarantee::Cheapest(k) => format!("cheapest over k = {k}"),
+            Guarantee::AtMostCheapest(k) => format!("at most as dear as the cheapest over k = {k}"),
             Guarantee::AtMost(k) => format!("at most as long as the shortest over k = {k}"),
             Guarantee::OptimalAnyAngle => "shortest at any angle".to_owned(),
             Guarantee::Suboptimal => "none".to_owned(),

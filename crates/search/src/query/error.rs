@@ -42,8 +42,8 @@ pub enum QueryError {
     /// A limit on the cost that is negative, or no number.
     #[error("the limit on the cost must be a number of cells, 0 or more")]
     CostLimit,
-    /// Smoothing of paths on a cost surface.
-    #[error("paths on costs of cells are not smoothed: ask without smoothing")]
+    /// Paths on a cost surface that are to be pulled taut.
+    #[error("paths on costs of cells are not pulled taut: smooth them linearly, or not")]
     Smoothing,
     /// A step of a search that was never begun.
     #[error("no search was begun: begin one first")]

@@ -14,6 +14,9 @@ pub trait PathCosts: Debug + Send + Sync {
     /// No path by this displacement costs less.
     fn least(&self, v: Vector) -> Cost;
 
+    /// No path of segments at any angle by this displacement costs less.
+    fn least_at_any_angle(&self, v: Vector) -> Cost;
+
     /// The cost of a path of the planner.
     fn cost(&self, path: &Path) -> Cost;
 

@@ -122,7 +122,8 @@ impl Search {
         query: Query,
     ) -> Result<Self, QueryError> {
         let bound = Arc::clone(&costs);
-        Self::with_bound(space, (metric, &|v| bound.least(v)), (guarantee, Some(costs)), query)
+        let least = |v| if guarantee.is_optimal() { bound.least(v) } else { bound.least_at_any_angle(v) };
+        Self::with_bound(space, (metric, &least), (guarantee, Some(costs)), query)
     }
 
     fn with_bound<P: Placement>(

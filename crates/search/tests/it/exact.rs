@@ -115,7 +115,7 @@ impl Case<'_> {
         let [optimum, any_angle] = [self.optimum, self.any_angle].map(|cost| cost.unwrap_or(f64::NAN));
         let (least, most) = match engine.guarantee {
             Guarantee::Optimal(_) | Guarantee::Cheapest(_) => (optimum, optimum),
-            Guarantee::AtMost(_) => (any_angle, optimum),
+            Guarantee::AtMost(_) | Guarantee::AtMostCheapest(_) => (any_angle, optimum),
             Guarantee::OptimalAnyAngle => (any_angle, any_angle),
             Guarantee::Suboptimal if engine.paths == K::Any => (any_angle, f64::INFINITY),
             Guarantee::Suboptimal => (optimum, f64::INFINITY),

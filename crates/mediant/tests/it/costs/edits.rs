@@ -28,7 +28,7 @@ fn what_was_prepared_follows_edits_of_costs() {
         let mut rng = Rng::new(seed);
         let mut costs = world.costs.clone();
         let mut space = world.space.clone();
-        let mut planners = world.planners();
+        let mut planners = world.all_planners();
         let sources = world.free(&mut rng, 2);
         let mut field = world.space.field(sources.clone()).expect("the sources are free");
         for edit in 0..5 {

@@ -9,6 +9,7 @@ mod landmarks;
 mod queries;
 mod rasters;
 mod refused;
+mod theta;
 
 use std::sync::Arc;
 
@@ -100,6 +101,12 @@ impl World {
     fn planners(&self) -> [Planner; 3] {
         [Engine::AStar, Engine::Dijkstra, Engine::Landmarks]
             .map(|engine| self.space.planner(engine).unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    /// Planners of all engines that know costs.
+    fn all_planners(&self) -> Vec<Planner> {
+        let known = Engine::ALL.into_iter().filter(|engine| engine.capabilities().costs);
+        known.map(|engine| self.space.planner(engine).unwrap_or_else(|error| panic!("{error}"))).collect()
     }
 
     /// Fails unless a path is legal and has the cost that it states, which is this one.

@@ -47,18 +47,22 @@ fn what_there_is_not_on_costs_is_refused() {
         assert_eq!(error.code(), ErrorCode::Motion);
     }
     assert_eq!(costs.space(-1).unwrap_err().code(), ErrorCode::K);
-    let known = [Engine::AStar, Engine::Dijkstra, Engine::Landmarks];
+    let known = [Engine::AStar, Engine::Dijkstra, Engine::Theta, Engine::LazyTheta, Engine::Landmarks];
     for engine in Engine::ALL.into_iter().filter(|engine| !known.contains(engine)) {
         for motion in [Motion::centers(3), Motion::corners(5)] {
             let error = costs.space(motion).expect("a small k").prepare(engine).expect_err("no costs");
             assert!(matches!(error, Error::Setup(SetupError::Costs { .. })), "{error}");
-            assert!(error.to_string().contains("astar, dijkstra"), "{error}");
+            assert!(error.to_string().contains("astar, dijkstra, theta, lazy-theta, landmarks"), "{error}");
         }
         assert!(space.make_ready(engine).is_err() && space.distances(engine, (0, 0)).is_err());
     }
     assert!(space.make_ready(Engine::AStar).is_ok());
     let with = |heuristic| {
-        space.prepare(ConfiguredEngine::AStar(GuidedOptions { heuristic: Some(heuristic) })).map(|_| ())
+        let own = GuidedOptions { heuristic: Some(heuristic) };
+        let theta = space.planner(ConfiguredEngine::Theta(own)).map(|_| ());
+        let a_star = space.planner(ConfiguredEngine::AStar(own)).map(|_| ());
+        assert_eq!(theta.is_ok(), a_star.is_ok());
+        a_star
     };
     for (heuristic, is_known) in [
         (HeuristicName::Hk, true),
