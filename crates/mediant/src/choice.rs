@@ -114,16 +114,43 @@ impl Choice {
     }
 }
 
+/// The most bytes that landmarks may take where they are chosen: as many as hub labels by default.
+const MOST_BYTES_OF_LANDMARKS: u64 = 1_000_000_000;
+
+/// The bytes of a cell that the landmarks take: 8 numbers of 32 bits.
+const BYTES_OF_LANDMARKS: u64 = 32;
+
 impl Choice {
-    /// Where cells have costs.
+    /// Where cells have costs, for few paths.
     pub(crate) const ON_COSTS: Self = Self { engine: Engine::AStar, why: "it knows the costs of cells" };
+
+    /// Where cells have costs, for many paths: landmarks, unless all cells cost the same, or there are more
+    /// than 31 million.
+    ///
+    /// Where costs differ, a path took a fifth to a tenth of the time of A* with 8 landmarks; where all are
+    /// 1, two thirds, which pays for the preparation only after hundreds of paths, and engines without costs
+    /// are many times as fast there (`docs/measurements/costs.md`).
+    pub(crate) fn for_many_paths_on_costs(space: &Space) -> Self {
+        #[cfg(feature = "costs")]
+        if let Some((least, greatest)) = space.costs().map(|costs| costs.bounds()) {
+            let bytes = cells(space.map()).saturating_mul(BYTES_OF_LANDMARKS);
+            if least < greatest && bytes <= MOST_BYTES_OF_LANDMARKS {
+                let why = "it prepares the distances from a few landmarks, and then searches a small part";
+                return Self { engine: Engine::Landmarks, why };
+            }
+        }
+        #[cfg(not(feature = "costs"))]
+        let _ = (space, BYTES_OF_LANDMARKS, MOST_BYTES_OF_LANDMARKS);
+        Self::ON_COSTS
+    }
 }
 
 impl Space {
     /// The engine recommended for many paths, with the reason. It depends on the motion and on the size of
     /// the map alone. Whether subgoals pay on the map is found out when they are prepared; where they do not,
     /// nothing of them is kept, and another engine searches:
-    /// [`Index::searched_by`](crate::Index::searched_by). Where cells have costs, it is A*.
+    /// [`Index::searched_by`](crate::Index::searched_by). Where cells have costs, it is landmarks; A* if all
+    /// cost the same, or landmarks would take more than a gigabyte.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion};
@@ -136,7 +163,7 @@ impl Space {
     #[must_use]
     pub fn engine(&self) -> Choice {
         match self.has_costs() {
-            true => Choice::ON_COSTS,
+            true => Choice::for_many_paths_on_costs(self),
             false => Choice::for_many_paths(self.motion(), self.map()),
         }
     }

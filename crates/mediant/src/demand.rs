@@ -40,6 +40,15 @@ pub enum Demand {
 /// block-based JPS at k = 3 (their geometric mean is 2,700), and as 380 to 25,000 of Anya at any angle.
 const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
 
+/// Up to so many paths on costs A* is done sooner than landmarks are prepared and have answered. On surfaces
+/// of 512 × 512 and 1024 × 1024 cells whose costs differ, the preparation took as long as 15 to 36 paths by A*
+/// between random ends, of which each saved 72 to 90 %. Shorter paths save less.
+const MOST_PATHS_WITHOUT_LANDMARKS: u64 = 100;
+
+/// Up to so many paths between two edits of costs A* searches. A cell that became cheaper took landmarks 1 to
+/// 5 ms in the mean there, one that became dearer or was blocked next to nothing; a path saved 9 to 67 ms.
+const PATHS_BETWEEN_EDITS_OF_COSTS: u64 = 10;
+
 /// For all distances.
 const DISTANCES: Choice = Choice { engine: Engine::Dijkstra, why: "it finds the distances to all vertices" };
 
@@ -57,7 +66,8 @@ impl Space {
     ///   [finished](crate::Index::finish) after every 40 edits; `docs/results/changes.md` has the figures;
     /// - for all distances Dijkstra's algorithm;
     /// - for an index subgoals, or JPS+ where they are not for this motion, or landmarks;
-    /// - for paths where cells have costs A*.
+    /// - where cells have costs: for up to 100 paths, and for up to 10 between two edits, A*, for more
+    ///   [`Space::engine`]; for an index landmarks.
     ///
     /// ```
     /// use mediant::{Demand, Engine, K, Map, Motion};
@@ -77,7 +87,11 @@ impl Space {
     /// [`SetupError`] where no engine does that for the space's motion: an index between centers above k = 8;
     /// all distances at any angle (a [`field`](Self::field) has them).
     pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
-        if self.has_costs() { demand.choice_on_costs() } else { demand.choice(self.motion(), self.map()) }
+        if self.has_costs() {
+            Ok(demand.choice_on_costs(self))
+        } else {
+            demand.choice(self.motion(), self.map())
+        }
     }
 
     /// The setup of a call in this space, whose motion is the space's, for what is asked; and why its engine
@@ -89,9 +103,16 @@ impl Space {
         if !self.has_costs() {
             return call.setup(demand, (self.motion(), self.map()));
         }
-        let choice = if call.engine().is_some() { None } else { Some(demand.choice_on_costs()?) };
-        let engine = choice.map(|choice| choice.engine).or(call.engine()).unwrap_or_default();
-        let engine = call.configured(engine)?;
+        let check = |engine| self.check_setup(&Setup::new(engine, self.motion()));
+        let (engine, choice) = match call.engine() {
+            Some(engine) => (call.configured(engine)?, None),
+            None => {
+                let choice = demand.choice_on_costs(self);
+                let recommended = Choice::for_many_paths_on_costs(self).engine;
+                let (engine, choice) = demand.with_options((choice, recommended), call.options(), check)?;
+                (engine, Some(choice))
+            }
+        };
         let setup = Setup { smoothing: call.smoothing(), ..Setup::new(engine, self.motion()) };
         self.check_setup(&setup)?;
         Ok((setup, choice))
@@ -127,12 +148,14 @@ impl Demand {
         }
     }
 
-    /// The same where cells have costs.
-    fn choice_on_costs(self) -> Result<Choice, SetupError> {
+    /// The engine that we would take where cells have costs.
+    fn choice_on_costs(self, space: &Space) -> Choice {
         match self {
-            Self::Paths(_) | Self::Changing { .. } => Ok(Choice::ON_COSTS),
-            Self::Distances => Ok(DISTANCES),
-            Self::Index => Ok(LANDMARKS),
+            Self::Paths(0..=MOST_PATHS_WITHOUT_LANDMARKS) => Choice::ON_COSTS,
+            Self::Changing { paths: 0..=PATHS_BETWEEN_EDITS_OF_COSTS } => Choice::ON_COSTS,
+            Self::Paths(_) | Self::Changing { .. } => Choice::for_many_paths_on_costs(space),
+            Self::Distances => DISTANCES,
+            Self::Index => LANDMARKS,
         }
     }
 
@@ -146,13 +169,24 @@ impl Demand {
         (motion, map): (Motion, &Map),
         options: &[(&EngineOption, OptionValue)],
     ) -> Result<(ConfiguredEngine, Choice), SetupError> {
+        let choices = (self.choice(motion, map)?, Choice::for_many_paths(motion, map).engine);
+        self.with_options(choices, options, |engine| Setup::new(engine, motion).check())
+    }
+
+    /// The choice with options, among the engines that pass a check. After it comes the engine that is
+    /// recommended for many paths.
+    fn with_options(
+        self,
+        (choice, recommended): (Choice, Engine),
+        options: &[(&EngineOption, OptionValue)],
+        check: impl Fn(ConfiguredEngine) -> Result<(), SetupError>,
+    ) -> Result<(ConfiguredEngine, Choice), SetupError> {
         let with_options = |engine: Engine| -> Result<ConfiguredEngine, SetupError> {
             let mut engine = ConfiguredEngine::from(engine);
             options.iter().try_for_each(|&(option, value)| engine.set(option, value))?;
-            Setup::new(engine, motion).check()?;
+            check(engine)?;
             Ok(engine)
         };
-        let choice = self.choice(motion, map)?;
         let refused = match with_options(choice.engine) {
             Ok(engine) => return Ok((engine, choice)),
             Err(refused) => refused,
@@ -162,8 +196,7 @@ impl Demand {
             Self::Distances => engine.capabilities().distances,
             Self::Index => engine.capabilities().index.is_some(),
         };
-        // The recommended engine comes first, then the engines in the order of their list.
-        let recommended = Choice::for_many_paths(motion, map).engine;
+        // Then the engines in the order of their list.
         let others = [recommended].into_iter().chain(Engine::ALL).filter(|&engine| does(engine));
         let other = others.filter_map(|engine| with_options(engine).ok()).next();
         let why = "it takes the options that were given";

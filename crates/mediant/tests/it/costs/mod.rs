@@ -15,7 +15,8 @@ use std::sync::Arc;
 
 use mediant::{
     Costs, Demand, Engine, FiniteK, Map, Motion, Path, PlacementKind, Planner, Rules, Space, Vertex,
-    call::Call, errors::SetupError,
+    call::{Call, Group, Parameter, Spelling, Value},
+    errors::SetupError,
 };
 use mediant_costs::CostGraph;
 use mediant_moves::{Cost, CostTable};
@@ -177,15 +178,25 @@ fn paths_and_answers_tell_cost_and_length() {
 }
 
 #[test]
-fn auto_is_a_star() {
+fn auto_follows_what_is_asked() {
     let space = space();
-    assert_eq!(space.engine().engine, Engine::AStar);
+    assert_eq!(space.engine().engine, Engine::Landmarks);
     let engine = |demand| space.engine_for(demand).map(|choice| choice.engine);
-    assert_eq!(engine(Demand::Paths(1)), Ok(Engine::AStar));
-    assert_eq!(engine(Demand::Paths(100_000)), Ok(Engine::AStar));
-    assert_eq!(engine(Demand::Changing { paths: 9 }), Ok(Engine::AStar));
+    for (few, many) in [
+        (Demand::Paths(1), Demand::Paths(101)),
+        (Demand::Paths(100), Demand::Paths(u64::MAX)),
+        (Demand::Changing { paths: 0 }, Demand::Changing { paths: 11 }),
+        (Demand::Changing { paths: 10 }, Demand::Changing { paths: u64::MAX }),
+    ] {
+        assert_eq!((engine(few), engine(many)), (Ok(Engine::AStar), Ok(Engine::Landmarks)));
+    }
     assert_eq!(engine(Demand::Distances), Ok(Engine::Dijkstra));
     assert_eq!(engine(Demand::Index), Ok(Engine::Landmarks));
+    // Where all cells cost the same, landmarks find little.
+    let equal = space.map().costs([3; 12]).expect("costs").space(Motion::default()).expect("k = 3");
+    let of_equal = |demand| equal.engine_for(demand).map(|choice| choice.engine);
+    assert_eq!((equal.engine().engine, of_equal(Demand::Paths(9_999))), (Engine::AStar, Ok(Engine::AStar)));
+    assert_eq!(of_equal(Demand::Index), Ok(Engine::Landmarks));
     let (setup, choice) = space.setup(&Call::default(), Demand::Paths(9)).expect("auto");
     assert_eq!(
         (setup.engine.kind(), choice.map(|choice| choice.engine)),
@@ -195,6 +206,26 @@ fn auto_is_a_star() {
     assert!(matches!(space.setup(&named, Demand::Paths(9)), Err(SetupError::Costs { .. })));
     assert!(space.memory_bytes() > 0 && space.is_free((0, 0)) && !space.is_free((1, 1)));
     assert_eq!(space.motion().rules.placement(), PlacementKind::Center);
+}
+
+/// Options that the recommended engine does not take lead to one that does.
+#[test]
+fn auto_takes_the_options_that_are_given() {
+    let space = space();
+    for (name, value, paths, engine) in [
+        ("heuristic", "zero".into(), 1_000, Engine::AStar),
+        ("landmarks", Value::from(16), 1, Engine::Landmarks),
+    ] {
+        let mut call = Call::default();
+        let parameter = Parameter::find(name, Spelling::Kebab, &Group::ALL).expect("a parameter");
+        call.set(parameter, value).expect("a value of it");
+        let (setup, choice) = space.setup(&call, Demand::Paths(paths)).expect("an engine takes it");
+        assert_eq!((setup.engine.kind(), choice.map(|choice| choice.engine)), (engine, Some(engine)));
+    }
+    let mut call = Call::default();
+    let side = Parameter::find("side", Spelling::Kebab, &Group::ALL).expect("a parameter");
+    call.set(side, Value::from(4)).expect("a value of it");
+    assert!(matches!(space.setup(&call, Demand::Paths(1)), Err(SetupError::Option { .. })));
 }
 
 /// Paths that are none on the map have no cost, wherever they lead.
