@@ -41,8 +41,8 @@ pub enum Demand {
 const MOST_PATHS_WITHOUT_INDEX: u64 = 1_000;
 
 /// Up to so many paths on costs A* is done sooner than landmarks are prepared and have answered. On surfaces
-/// of 512 × 512 and 1024 × 1024 cells whose costs differ, the preparation took as long as 15 to 36 paths by A*
-/// between random ends, of which each saved 72 to 90 %. Shorter paths save less.
+/// of 512 × 512 and 1024 × 1024 cells whose costs differ, the preparation took as long as 15 to 36 paths by
+/// A* between random ends, of which each saved 72 to 90 %. Shorter paths save less.
 const MOST_PATHS_WITHOUT_LANDMARKS: u64 = 100;
 
 /// Up to so many paths between two edits of costs A* searches. A cell that became cheaper took landmarks 1 to

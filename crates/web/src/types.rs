@@ -84,6 +84,12 @@ export interface Options {
    */
   readonly side?: number;
   /**
+   * The number of landmarks from which landmarks has all distances: 4, 8 or 16, the first of these that is
+   * not less than N. 8 by default; 16 take twice the memory and the time to prepare, for queries 1.1 to 1.4
+   * times as fast; with --index, those of the index.
+   */
+  readonly landmarks?: number;
+  /**
    * Shortens paths after the search, by straight segments at any angle: linear looks for the next vertex in
    * sight along the path, taut pulls the path tight around the corners.
    */

@@ -79,8 +79,8 @@ fn an_index_is_of_the_best_engine_that_has_one() {
         assert_eq!((&run["engine"], &run["asked"]), (&engine.into(), &"auto".into()), "{options}");
     }
     check(
-        &format!("build builtin:cave --k 4 -o {}", files.path("no.idx")),
-        "no engine has an index for center, corners never, k = 4: choose k = 2 or 3, or placement corner, or name an \
+        &format!("build builtin:cave --k 9 -o {}", files.path("no.idx")),
+        "no engine has an index for center, corners never, k = 9: choose k = 2 to 8, or placement corner, or name an \
          engine that needs none",
     );
     let index = built(&files, "hpa.idx", "builtin:cave --engine hpa");

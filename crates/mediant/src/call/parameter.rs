@@ -153,7 +153,7 @@ const fn option(option: &'static EngineOption) -> Parameter {
 }
 
 /// All parameters of calls, in the order of help.
-pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 24 } else { 17 }] = [
+pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 25 } else { 18 }] = [
     Parameter {
         default: Some("3"),
         ..motion(
@@ -260,6 +260,7 @@ pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 24 } else
     option(&option_table::LEVELS),
     option(&option_table::MEMORY),
     option(&option_table::SIDE),
+    option(&option_table::LANDMARKS),
     #[cfg(feature = "publications")]
     option(&published::UNSTRAIGHTENED),
     #[cfg(feature = "publications")]

@@ -87,6 +87,7 @@ class Options(TypedDict, total=False):
     levels: SupportsIndex | Literal["all", "contracted", "labels"] | None
     memory: SupportsIndex | str | None
     side: SupportsIndex | None
+    landmarks: SupportsIndex | None
     smooth: Smooth | None
 
 class FromGrid(Motion, Wishes, Options, total=False):

@@ -56,7 +56,7 @@ impl Grid {
         text_signature = "($self, starts, goals, *, points='waypoints', threads=None, progress=None, invalid='raise', \
             k=None, neighbors=None, placement=None, corners=None, gap=None, nearest=False, snap=False, \
             tolerance=None, max_cost=None, max_expansions=None, timeout=None, engine='auto', heuristic=None, \
-            levels=None, memory=None, side=None, smooth=None)"
+            levels=None, memory=None, side=None, landmarks=None, smooth=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "the keywords of a call in Python")]
     fn paths<'py>(

@@ -67,7 +67,7 @@ impl Grid {
         text_signature = "($self, start, goal, *, points='waypoints', k=None, neighbors=None, placement=None, \
             corners=None, gap=None, nearest=False, snap=False, tolerance=None, max_cost=None, \
             max_expansions=None, timeout=None, engine='auto', heuristic=None, levels=None, memory=None, \
-            side=None, smooth=None)"
+            side=None, landmarks=None, smooth=None)"
     )]
     fn path<'py>(
         &self,
@@ -115,7 +115,7 @@ impl Grid {
         signature = (start, goal, **how),
         text_signature = "($self, start, goal, *, k=None, neighbors=None, placement=None, corners=None, gap=None, \
             nearest=False, snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, \
-            engine='auto', heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+            engine='auto', heuristic=None, levels=None, memory=None, side=None, landmarks=None, smooth=None)"
     )]
     fn distance<'py>(
         &self,
@@ -205,7 +205,7 @@ impl Grid {
         text_signature = "($self, start, goal, *, points='waypoints', counters=False, k=None, neighbors=None, \
             placement=None, corners=None, gap=None, nearest=False, snap=False, tolerance=None, \
             max_cost=None, max_expansions=None, timeout=None, engine='auto', heuristic=None, levels=None, \
-            memory=None, side=None, smooth=None)"
+            memory=None, side=None, landmarks=None, smooth=None)"
     )]
     fn find<'py>(
         &self,
@@ -251,7 +251,7 @@ impl Grid {
         signature = (**how),
         text_signature = "($self, *, k=None, neighbors=None, placement=None, corners=None, gap=None, nearest=False, \
             snap=False, tolerance=None, max_cost=None, max_expansions=None, timeout=None, engine='auto', \
-            heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+            heuristic=None, levels=None, memory=None, side=None, landmarks=None, smooth=None)"
     )]
     fn setup(&self, how: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
         let keywords = Keywords::read("setup", how, ALL)?;
@@ -304,7 +304,8 @@ impl Grid {
     #[pyo3(
         signature = (engine = None, *, threads = None, progress = None, **preparation),
         text_signature = "($self, engine=None, *, threads=None, progress=None, k=None, neighbors=None, placement=None, \
-            corners=None, gap=None, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+            corners=None, gap=None, heuristic=None, levels=None, memory=None, side=None, landmarks=None, \
+            smooth=None)"
     )]
     fn prepare<'py>(
         &self,
@@ -363,7 +364,8 @@ impl Grid {
     /// See `Index.save`.
     #[pyo3(
         signature = (path, **options),
-        text_signature = "($self, path, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+        text_signature = "($self, path, *, heuristic=None, levels=None, memory=None, side=None, landmarks=None, \
+            smooth=None)"
     )]
     fn load(
         &self,
@@ -402,7 +404,8 @@ impl Grid {
     /// See `Index.to_bytes`.
     #[pyo3(
         signature = (data, **options),
-        text_signature = "($self, data, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+        text_signature = "($self, data, *, heuristic=None, levels=None, memory=None, side=None, landmarks=None, \
+            smooth=None)"
     )]
     fn index_from_bytes(
         &self,

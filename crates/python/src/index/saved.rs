@@ -49,7 +49,7 @@ impl Index {
     /// 'astar:3:never,euclidean'
     #[pyo3(
         signature = (**options),
-        text_signature = "($self, *, heuristic=None, levels=None, memory=None, side=None, smooth=None)"
+        text_signature = "($self, *, heuristic=None, levels=None, memory=None, side=None, landmarks=None, smooth=None)"
     )]
     fn with_options(&self, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let keywords = Keywords::read("with_options", options, OPTIONS)?;
