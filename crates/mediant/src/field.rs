@@ -1,8 +1,9 @@
 //! Distance fields in a space.
 
 mod heading;
+mod rows;
 
-use std::{fmt, sync::Arc};
+use std::{fmt, num::NonZeroUsize, sync::Arc};
 
 #[cfg(feature = "costs")]
 use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph};
@@ -67,7 +68,7 @@ enum Makers {
     Corners(search::Fields<Arc<GridGraph<Corners>>, Corners>),
     AnyAngle(AnyAngleFields<Arc<FreeSpace<Corners>>>),
     #[cfg(feature = "costs")]
-    Costs(Arc<CostGraph>),
+    Costs(Arc<CostGraph>, NonZeroUsize),
     #[cfg(feature = "walking")]
     Walking(Arc<WalkingGraph>),
 }
@@ -115,7 +116,7 @@ impl Space {
     fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
         #[cfg(feature = "costs")]
         if let Some(surface) = self.surface() {
-            return Ok(Fields { inner: Makers::Costs(Arc::clone(&surface.graph)) });
+            return Ok(Fields { inner: Makers::Costs(Arc::clone(&surface.graph), NonZeroUsize::MIN) });
         }
         #[cfg(feature = "walking")]
         if let Some(walk) = self.walk() {
@@ -147,10 +148,24 @@ fn fields_over<P: Shared>(
 }
 
 impl Fields {
+    /// The same fields, where cells have costs each by so many threads, which are there for as long as it
+    /// takes; other fields, and those of several sources, are made on one. On two cores two threads have not
+    /// been faster than one yet (`docs/measurements/costs.md`).
+    #[must_use]
+    pub fn on_threads(self, threads: NonZeroUsize) -> Self {
+        #[cfg(feature = "costs")]
+        if let Makers::Costs(graph, _) = self.inner {
+            return Self { inner: Makers::Costs(graph, threads) };
+        }
+        let _ = threads;
+        self
+    }
+
     /// The distance of every vertex to the nearest source. Without a source it is empty.
     ///
     /// # Errors
-    /// [`Error::Query`] for the first source that is blocked or outside the map.
+    /// [`Error::Query`] for the first source that is blocked or outside the map; [`Error::OutOfMemory`]
+    /// before a field of costs is made for which there is no room.
     pub fn field<V: Into<Vertex>>(&mut self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
         let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
         self.make(FieldQuery::new(&sources), &NEVER)
@@ -176,7 +191,7 @@ impl Fields {
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
             #[cfg(feature = "costs")]
-            Makers::Costs(graph) => return on_costs(graph, query, interrupt),
+            Makers::Costs(graph, threads) => return on_costs((graph, *threads), query, interrupt),
             #[cfg(feature = "walking")]
             Makers::Walking(graph) => {
                 return heading::over_elevation(graph, Heading::ToSources, query, interrupt);
@@ -188,12 +203,16 @@ impl Fields {
 
 /// A field of costs. With one source that is the nearest to all; of several it is written down which is.
 #[cfg(feature = "costs")]
-fn on_costs(graph: &Arc<CostGraph>, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
+fn on_costs(
+    (graph, threads): (&Arc<CostGraph>, NonZeroUsize),
+    query: FieldQuery<'_>,
+    interrupt: &Interrupt,
+) -> Result<Field, Error> {
     let has_several = query.sources.len() > 1;
     let query = CostFieldQuery::new(query.sources).within(query.limit);
     let query = if has_several { query.with_allocation() } else { query };
     memory_check::check("the field", CostField::bytes(graph, has_several) as u64)?;
-    let field = CostField::new(Arc::clone(graph), query, interrupt).map_err(told_on_costs)?;
+    let field = CostField::on_threads(Arc::clone(graph), query, threads, interrupt).map_err(told_on_costs)?;
     Ok(Field { inner: Inner::Costs(field) })
 }
 
@@ -248,6 +267,8 @@ macro_rules! of_each {
         }
     };
 }
+
+use of_each;
 
 impl Field {
     /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
@@ -476,7 +497,7 @@ impl fmt::Debug for Fields {
             Makers::Corners(fields) => fields.identity(),
             Makers::AnyAngle(fields) => fields.identity(),
             #[cfg(feature = "costs")]
-            Makers::Costs(graph) => graph.identity(),
+            Makers::Costs(graph, _) => graph.identity(),
             #[cfg(feature = "walking")]
             Makers::Walking(graph) => graph.identity(),
         };

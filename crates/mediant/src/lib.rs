@@ -190,6 +190,7 @@
 //! | find cheapest paths over cells with costs, cost distance, corridors | [`Map::costs`], [`Field::corridor`] |
 //! | keep off walls by costs, as nav2 does | [`Map::inflated`], [`Costmap`] |
 //! | walk over elevation, from places or to them | `Map::walking`, [`Space::field_from`] |
+//! | write allocation and directions (back links) as rasters, tell the cells that a path crosses | [`Field::allocation`], `Field::directions`, `Space::crossings` |
 //! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Square`], [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`], [`Change::check`] |
@@ -302,7 +303,7 @@ pub use index::{Index, Origin};
 pub use limits::Limits;
 pub use map::Map;
 #[cfg(feature = "costs")]
-pub use mediant_costs::{Inflation, Traversal};
+pub use mediant_costs::{DirectionCode, Inflation, Traversal};
 #[cfg(feature = "walking")]
 pub use mediant_costs::{Langmuir, Pace};
 #[doc(hidden)]

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 
 use mediant_grid::{Identity, Interrupt};
+#[cfg(feature = "costs")]
+use mediant_grid::Vertex;
 use mediant_search::{Path, PathCosts, Smoothing};
 
 #[cfg(not(feature = "costs"))]
@@ -141,6 +143,30 @@ impl Space {
             Some(of) => of.cost(path),
             None => Some(path.length()),
         }
+    }
+
+    /// The cells that a path crosses in a space of costs, in their order on the way, each with the length of
+    /// the path in it, in the unit of the [cell size](crate::Costs::cell_size). The sum of length times cost
+    /// is the cost of the path. Along a line between two cells it is the one whose cost counts; a cell that
+    /// is touched in a corner alone is left out. Empty for a path with a segment that is not legal.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let space = Map::new(3, 2)?.costs([1, 2, 4, 8, 8, 8])?.space(Motion::centers(4))?;
+    /// let path = space.path((0, 0), (2, 0))?.expect("there is a way");
+    /// let crossed = space.crossings(&path)?;
+    /// assert_eq!(crossed, [((0, 0).into(), 0.5), ((1, 0).into(), 1.0), ((2, 0).into(), 0.5)]);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SetupError::WithoutCosts`] where cells have no costs.
+    #[cfg(feature = "costs")]
+    pub fn crossings(&self, path: &Path) -> Result<Vec<(Vertex, f64)>, Error> {
+        let surface = self.surface().ok_or(SetupError::WithoutCosts)?;
+        let crossed = surface.graph.crossings(path).into_iter();
+        Ok(crossed.map(|((x, y), length)| (Vertex::new(x as i32, y as i32), length)).collect())
     }
 
     /// A path with its cost in this space. One without a cost costs more than any other.

@@ -1,6 +1,8 @@
 //! Fields, and spaces where all cells cost 1.
 
-use mediant::{Engine, ErrorCode, Limits, Map, Motion, Rules};
+use std::num::NonZeroUsize;
+
+use mediant::{DirectionCode, Engine, ErrorCode, K, Limits, Map, Motion, Path, Rules, Vertex};
 use mediant_oracle::{Rng, random_free_vertex, random_weighted, seeds};
 
 use super::{World, ends};
@@ -91,4 +93,83 @@ fn costs_of_1_are_lengths_and_another_space() {
             assert_eq!(one.corridor(&other).unwrap_err().code(), ErrorCode::Mismatch);
         }
     }
+}
+
+/// Rows of allocation, directions and lengths are those of single vertices; so are fields on threads.
+#[test]
+fn rows_are_those_of_single_vertices() {
+    let (mut reached, mut crossed) = (0, 0);
+    for seed in seeds(60) {
+        let world = World::new(seed);
+        let about = &world.about;
+        let mut rng = Rng::new(seed);
+        let count = 1 + rng.below(4);
+        let sources = world.free(&mut rng, count);
+        let plain =
+            world.space.map().space(Motion::new(k(2 + (seed % 3) as u32), world.rules)).expect("a small k");
+        for space in [&world.space, &plain] {
+            let field = space.field(sources.clone()).expect("the sources are free");
+            assert_eq!(field.sources(), sources);
+            let (allocation, lengths) = (field.allocation(), field.lengths());
+            let codes = [DirectionCode::ArcGisBackLink, DirectionCode::ArcGisDegrees, DirectionCode::Grass];
+            let directions = codes.map(|code| field.directions(code));
+            assert_eq!((allocation.len(), directions[0].len()), (lengths.len(), lengths.len()), "{about}");
+            for (number, at) in world.vertices().into_iter().enumerate() {
+                let source = allocation[number].map(|source| sources[source as usize]);
+                assert_eq!(source, field.nearest_source(at), "{at}: {about}");
+                // Of equal sources it is the first.
+                assert!(source.is_none_or(|source| sources.iter().position(|&at| at == source)
+                    == allocation[number].map(|source| source as usize)));
+                let next = field.next(at);
+                for (code, row) in codes.into_iter().zip(&directions) {
+                    let told = Some(row[number]).filter(|number| !number.is_nan());
+                    let expected = match next {
+                        Some(next) => code.of(at.to(next)),
+                        None => field.get(at).and_then(|_| code.of_source()),
+                    };
+                    assert_eq!(told, expected, "{code:?} at {at}: {about}");
+                }
+                reached += usize::from(next.is_some());
+            }
+            let two = NonZeroUsize::new(2).expect("it is not 0");
+            let on_two =
+                space.fields().expect("a space").on_threads(two).field(sources.clone()).expect("free");
+            assert_eq!((on_two.lengths(), on_two.allocation()), (lengths.clone(), allocation), "{about}");
+            assert_eq!(field.into_lengths(), lengths, "{about}");
+        }
+        // The cells of a path, by their costs.
+        let (Some(&start), Some(&goal)) = (sources.first(), sources.last()) else { continue };
+        for engine in [Engine::AStar, Engine::Theta] {
+            let mut planner = world.space.planner(engine).expect("it knows costs");
+            let Some(path) = planner.path(start, goal).expect("both are free") else { continue };
+            let cells = world.space.crossings(&path).expect("cells have costs");
+            let cost = |(cell, length): (Vertex, f64)| length * world.costs.cost(cell).expect("it is free");
+            let sum: f64 = cells.iter().copied().map(cost).sum();
+            assert!(
+                (sum - path.cost()).abs() <= 1e-6 * (1.0 + sum),
+                "{path}: {sum}, not {}: {about}",
+                path.cost()
+            );
+            crossed += cells.len();
+        }
+        assert_eq!(plain.crossings(&Path::new(vec![start])).unwrap_err().code(), ErrorCode::Cost);
+    }
+    assert!(reached > 3_000 && crossed > 150, "{reached} reached, {crossed} crossed");
+}
+
+/// At any angle a vertex has the source to which its path leads, too.
+#[test]
+fn allocation_at_any_angle() {
+    let map = Map::from_fn(12, 9, |x, y| (x * 5 + y * 3) % 7 == 0).expect("a map");
+    let space = map.space(Motion::corners(K::ANY)).expect("a space");
+    let sources: Vec<Vertex> = [(0, 9), (12, 0), (6, 4)].map(Into::into).into();
+    let sources: Vec<Vertex> = sources.into_iter().filter(|&at| space.is_free(at)).collect();
+    let field = space.field(sources.clone()).expect("the sources are free");
+    let (mut found, allocation) = (0, field.allocation());
+    for (number, source) in allocation.into_iter().enumerate() {
+        let at = Vertex::new(number as i32 % 13, number as i32 / 13);
+        assert_eq!(source.map(|source| sources[source as usize]), field.nearest_source(at), "{at}");
+        found += usize::from(source.is_some());
+    }
+    assert!(found > 60, "{found}");
 }
