@@ -11,7 +11,9 @@ use mediant_search::{Path, PathCosts, Smoothing};
 pub(crate) use self::absent::Surface;
 #[cfg(feature = "costs")]
 pub(crate) use self::given::Surface;
-use crate::{error::Error, motion::Motion, setup::Setup, setup_error::SetupError, space::Space};
+use crate::{
+    engine::Engine, error::Error, motion::Motion, setup::Setup, setup_error::SetupError, space::Space,
+};
 
 /// Numbers of cells by which paths cost something else than their length.
 pub(crate) trait Weighed {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    costs::CostsArgs,
     flags::{ENGINE, Flags, INDEX_OPTIONS, MOTION},
     map::MapArgs,
 };
@@ -13,6 +14,8 @@ use super::{
 pub(crate) struct BuildArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
     #[command(flatten)]
     pub(crate) flags: Flags<{ MOTION | ENGINE | INDEX_OPTIONS }>,
     /// The index file to write

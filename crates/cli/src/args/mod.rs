@@ -30,7 +30,7 @@ pub(crate) use self::{
     map::MapArgs,
     moves::MovesArgs,
     query::QueryArgs,
-    reach::ReachArgs,
+    reach::{Directions, ReachArgs},
     run::{Format, RunArgs},
     setup::Asked,
     table::{TableArgs, TableFormat},

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use mediant::DirectionCode;
 
 use super::{
     costs::{CostsArgs, WalkingArgs},
@@ -36,11 +37,38 @@ pub(crate) struct ReachArgs {
     pub(crate) within: Option<f64>,
     #[command(flatten)]
     pub(crate) motion: Flags<MOTION>,
+    /// Write the directions to the nearest source instead of distances, as numbers that other programs read
+    #[arg(long, value_name = "CODE", conflicts_with = "allocation")]
+    pub(crate) directions: Option<Directions>,
+    /// Write the number of the nearest source instead of distances: 0 is the first --from
+    #[arg(long)]
+    pub(crate) allocation: bool,
     /// Write the distances to this file (repeat it for several): .png and .svg are pictures, .csv has x, y
     /// and distance of all that is reached, .npy is an array for NumPy, .asc and .tif are rasters (ESRI ASCII
     /// grid, GeoTIFF) at the place of the costs; - prints the CSV
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Vec<PathBuf>,
+}
+
+/// The code of directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Directions {
+    /// Back links of ArcGIS, for k = 2 and 3: 1 to 8 clockwise from east, 0 at a source
+    Arcgis,
+    /// Back directions of ArcGIS: degrees clockwise from north, above 0 to 360, 0 at a source
+    Degrees,
+    /// Movement directions of GRASS: degrees counterclockwise from east, above 0 to 360
+    Grass,
+}
+
+impl From<Directions> for DirectionCode {
+    fn from(code: Directions) -> Self {
+        match code {
+            Directions::Arcgis => Self::ArcGisBackLink,
+            Directions::Degrees => Self::ArcGisDegrees,
+            Directions::Grass => Self::Grass,
+        }
+    }
 }
 
 const REACH_HELP: &str = "\
@@ -60,6 +88,10 @@ costs, and distances are the least costs: an accumulated cost surface.
 With --elevation they are the least times to walk from the sources, in seconds where the raster is in \
 meters; with --to in place of --from, the times to walk to them.
 
+With --directions or --allocation files and pictures have these in place of distances. Where there is none \
+(outside what is reached; with grass at sources) the array has 'not a number', rasters no data, and the CSV no \
+line.
+
 Examples:
   mediant reach builtin:cave --from 2,5 --within 40
   mediant reach arena.map --from 1,11 --from 40,30 -o arena.png
@@ -68,4 +100,6 @@ Examples:
   mediant reach friction.tif --from 100,200 --k 4 --corners always -o cost.tif
   mediant reach dem.tif --elevation --from 100,200 --within 3600 --k 4 -o hour.tif
   mediant reach dem.tif --elevation --pace langmuir --to 100,200 -o back.asc
+  mediant reach friction.tif --from 100,200 --from 9,9 --allocation -o nearest.tif
+  mediant reach friction.tif --from 100,200 --directions arcgis -o links.tif
   mediant reach depot.yaml --world --from 0.5,0.5 --within 1.5 --radius 0.1";

@@ -31,5 +31,8 @@ pub(crate) fn list(screen: &mut Screen) -> Result<(), Failure> {
         table.row([engine.name(), &placement, &ks, guarantee.name(), paper].map(str::to_owned));
     }
     table.write(screen)?;
-    Ok(writeln!(screen, "\n{NOTES}")?)
+    writeln!(screen, "\n{NOTES}")?;
+    let on_costs: Vec<_> =
+        Engine::all().filter(|engine| engine.capabilities().costs).map(Engine::name).collect();
+    Ok(writeln!(screen, "Costs of cells, with k = 2 to 8: {}.", on_costs.join(", "))?)
 }

@@ -5,11 +5,11 @@ use std::{
     path::Path,
 };
 
-use mediant::{Error, Field, Motion, Vertex};
+use mediant::{Error, Field, K, Motion, Vertex};
 use mediant_formats::{Picture, Surface, SurfaceFormat};
 
 use crate::{
-    args::ReachArgs,
+    args::{Directions, ReachArgs},
     failure::{Ending, Failure},
     map::NamedMap,
     run::{
@@ -59,6 +59,9 @@ impl Form {
 /// Runs the command.
 pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let motion = args.motion.0.motion()?;
+    if args.directions == Some(Directions::Arcgis) && !matches!(motion.k, K::N4 | K::N8) {
+        return Err(Failure::BackLinks { k: motion.k });
+    }
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
     let map = NamedMap::load_ground(&args.map, args.costs.band)?.without_tiles();
@@ -84,16 +87,17 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         }
         Err(error) => return Err(error.into()),
     };
+    let values = Values::of(args, &field);
     for (path, form) in &outputs {
         match form {
-            Form::Printed => csv(field.iter(), screen)?,
-            Form::Csv => write_file(path, |file| csv(field.iter(), file))?,
+            Form::Printed => csv(values.name, values.iter(&field), screen)?,
+            Form::Csv => write_file(path, |file| csv(values.name, values.iter(&field), file))?,
             Form::Npy => {
                 let shape = (field.height(), field.width());
-                write_file(path, |file| npy::write(shape, field.lengths(), file))?;
+                write_file(path, |file| npy::write(shape, values.rows.iter().copied(), file))?;
             }
-            Form::Surface(_) => surface(&map, &field)?.save(path)?,
-            Form::Picture => picture(&map, motion, &field, &sources).write_to(path)?,
+            Form::Surface(_) => surface(&map, &field, &values)?.save(path)?,
+            Form::Picture => picture(&map, motion, &field, &values).write_to(path)?,
         }
     }
     // A summary would spoil the CSV on stdout.
@@ -107,14 +111,45 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     Ok(Ending::Answered)
 }
 
-/// The distances as a raster, at the place of the costs.
-fn surface(map: &NamedMap, field: &Field) -> Result<Surface, Failure> {
-    /// No distance is negative, and every program reads it.
+/// The numbers of all vertices that are written, row by row.
+struct Values {
+    name: &'static str,
+    rows: Vec<f64>,
+}
+
+impl Values {
+    fn of(args: &ReachArgs, field: &Field) -> Self {
+        let source = |number: Option<u32>| number.map_or(f64::NAN, f64::from);
+        match args.directions {
+            Some(code) => Self { name: "direction", rows: field.directions(code.into()) },
+            None if args.allocation => {
+                Self { name: "source", rows: field.allocation().into_iter().map(source).collect() }
+            }
+            None => Self { name: "distance", rows: field.lengths() },
+        }
+    }
+
+    fn get(&self, field: &Field, at: Vertex) -> Option<f64> {
+        let row = usize::try_from(at.y).ok()? * field.width() as usize;
+        self.rows.get(row + usize::try_from(at.x).ok()?).copied().filter(|number| number.is_finite())
+    }
+
+    /// Each vertex that has a number.
+    fn iter(&self, field: &Field) -> impl Iterator<Item = (Vertex, f64)> {
+        let width = field.width() as usize;
+        let vertex = move |number: usize| Vertex::new((number % width) as i32, (number / width) as i32);
+        let numbered = self.rows.iter().enumerate().filter(|(_, number)| number.is_finite());
+        numbered.map(move |(number, &value)| (vertex(number), value))
+    }
+}
+
+/// The numbers as a raster, at the place of the costs.
+fn surface(map: &NamedMap, field: &Field, values: &Values) -> Result<Surface, Failure> {
+    /// None of them is negative, and every program reads it.
     const NO_DATA: f64 = -9999.0;
-    let lengths = field.lengths();
-    let lengths: Vec<f64> =
-        lengths.into_iter().map(|cost| if cost.is_finite() { cost } else { NO_DATA }).collect();
-    let surface = Surface::new(field.width(), field.height(), lengths).map_err(Failure::Surface)?;
+    let rows = values.rows.iter().map(|&number| if number.is_finite() { number } else { NO_DATA });
+    let surface =
+        Surface::new(field.width(), field.height(), rows.collect::<Vec<f64>>()).map_err(Failure::Surface)?;
     let surface = surface.with_no_data(Some(NO_DATA));
     Ok(match &map.georeference {
         Some(place) => surface.with_georeference(place.clone()),
@@ -122,11 +157,11 @@ fn surface(map: &NamedMap, field: &Field) -> Result<Surface, Failure> {
     })
 }
 
-/// The map with the distances as colors.
-fn picture<'m>(map: &'m NamedMap, motion: Motion, field: &Field, sources: &[Vertex]) -> Picture<'m> {
+/// The map with the numbers as colors.
+fn picture<'m>(map: &'m NamedMap, motion: Motion, field: &Field, values: &Values) -> Picture<'m> {
     Picture::new(&map.ground, motion.rules.placement())
-        .field(|at| field.get(at))
-        .starts(sources.iter().copied())
+        .field(|at| values.get(field, at))
+        .starts(field.sources().iter().copied())
         .caption(format!("{}: {motion}", printable(&map.name)))
 }
 

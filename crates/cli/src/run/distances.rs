@@ -39,10 +39,10 @@ pub(crate) fn write(
         Err(error) => return Err(error.into()),
     };
     if path == Path::new("-") {
-        csv(found, screen)?;
+        csv("distance", found, screen)?;
         return Ok(Ending::Answered);
     }
-    write_file(path, |file| csv(found.iter().copied(), file))?;
+    write_file(path, |file| csv("distance", found.iter().copied(), file))?;
     let furthest = furthest((from, 0.0), found.iter().copied());
     let name = file_name(path);
     let (vertices, (at, distance)) = (count(found.len() as u64, "vertex", "vertices"), furthest);
@@ -59,12 +59,13 @@ pub(crate) fn furthest(
     distances.into_iter().fold(from, |a, b| if b.1 > a.1 { b } else { a })
 }
 
-/// Writes the distances, a line for each vertex.
+/// Writes numbers with a name, a line for each vertex.
 pub(crate) fn csv(
-    distances: impl IntoIterator<Item = (Vertex, f64)>,
+    name: &str,
+    numbers: impl IntoIterator<Item = (Vertex, f64)>,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    writeln!(out, "x,y,distance")?;
-    let mut lines = distances.into_iter();
-    lines.try_for_each(|(at, distance)| writeln!(out, "{},{},{}", at.x, at.y, rounded(distance)))
+    writeln!(out, "x,y,{name}")?;
+    let mut lines = numbers.into_iter();
+    lines.try_for_each(|(at, number)| writeln!(out, "{},{},{}", at.x, at.y, rounded(number)))
 }

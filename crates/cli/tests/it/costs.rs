@@ -84,11 +84,80 @@ fn a_raster_is_a_map_whose_numbers_are_costs() {
 }
 
 #[test]
+fn landmarks_are_built_and_searched() {
+    let (files, arguments) = files();
+    let index = files.path("land.idx");
+    let built = succeeds(&format!("build {arguments} --k 2 --landmarks 4 -o {index}"));
+    assert!(built.contains("landmarks of land.map"), "{built}");
+    let query = "--from 0,0 --to 4,0 --k 2 --format jsonl";
+    let cost =
+        |options: &str| lines(&succeeds(&format!("run {arguments} {query} {options}")))[1]["cost"].as_f64();
+    let head = |options: &str| lines(&succeeds(&format!("run {arguments} {query} {options}"))).remove(0);
+    for options in ["--engine landmarks", "--engine alt --landmarks 16", &format!("--index {index}")] {
+        assert_eq!(cost(options), Some(11.0), "{options}");
+        assert_eq!(head(options)["engine"], "landmarks", "{options}");
+    }
+    assert_eq!(head(&format!("--index {index}"))["landmarks"], 4);
+    // The index belongs to the costs.
+    let plain = arguments.split(' ').next().expect("a map");
+    let ran = run(&format!("run {plain} --from 0,0 --to 4,0 --k 2 --index {index}"));
+    assert!(ran.status == Some(2) && ran.stderr.contains("land.idx"), "{}", ran.stderr);
+    check(
+        &format!("build {arguments} --engine astar -o {index}"),
+        "astar has no index: choose jps-plus, subgoal, subgoal-theta, hpa, chpa, landmarks",
+    );
+}
+
+#[test]
+fn paths_turn_at_any_angle_and_cost_no_more() {
+    let (_files, arguments) = files();
+    let line = |options: &str| {
+        lines(&succeeds(&format!("run {arguments} --from 0,0 --to 4,0 --format jsonl {options}"))).remove(1)
+    };
+    let cost = |options: &str| line(options)["cost"].as_f64().expect("a path");
+    let least = cost("--engine astar");
+    for options in ["--engine theta", "--engine lazy-theta", "--smooth", "--engine landmarks --smooth"] {
+        let found = line(options);
+        assert!(cost(options) <= least && found["length"].as_f64() > Some(4.0), "{options}: {found}");
+    }
+    check(
+        &format!("run {arguments} --from 0,0 --to 4,0 --smooth=taut"),
+        "on costs of cells there is no taut smoothing: smooth linearly, which never costs more",
+    );
+}
+
+#[test]
+fn directions_and_allocation_are_written() {
+    let (files, arguments) = files();
+    let reach = format!("reach {arguments} --from 0,2 --from 4,2 --k 2");
+    let expected = "x,y,source\n0,0,0\n1,0,0\n2,0,0\n3,0,1\n4,0,1\n0,1,0\n1,1,0\n3,1,1\n4,1,1\n0,2,0\n1,2,0\n\
+                    2,2,0\n3,2,1\n4,2,1\n";
+    assert_eq!(succeeds(&format!("{reach} --allocation -o -")), expected);
+    let links = succeeds(&format!("{reach} --directions arcgis -o -"));
+    // South, and west; a source is 0.
+    for row in ["x,y,direction", "0,1,3", "1,2,5", "0,2,0"] {
+        assert!(links.lines().any(|line| line == row), "{row}: {links}");
+    }
+    let grass = succeeds(&format!("{reach} --directions grass -o -"));
+    assert!(grass.contains("\n0,1,270\n") && !grass.contains("\n0,2,"), "{grass}");
+    assert!(succeeds(&format!("{reach} --directions degrees -o -")).contains("\n1,2,270\n"));
+    let outputs = ["links.tif", "links.npy", "links.png"].map(|name| files.path(name));
+    let written = format!("-o {} -o {} -o {}", outputs[0], outputs[1], outputs[2]);
+    succeeds(&format!("{reach} --directions arcgis {written}"));
+    let read = read_surface(&outputs[0], &SurfaceOptions::default()).expect("a raster");
+    assert_eq!(read.iter().filter(Option::is_none).count(), 1, "the wall");
+    check(
+        &format!("{reach} --k 4 --directions arcgis -o -").replace("--k 2 ", ""),
+        "back links of ArcGIS are for k = 2 and 3, not for k = 4: choose --directions degrees",
+    );
+}
+
+#[test]
 fn what_does_not_go_with_costs_is_said() {
     let (files, arguments) = files();
     check(
         &format!("run {arguments} --from 0,0 --to 4,0 --engine jps"),
-        "jps knows no costs of cells: on costs choose astar, dijkstra",
+        "jps knows no costs of cells: on costs choose astar, dijkstra, theta, lazy-theta, landmarks",
     );
     check(
         &format!("run {arguments} --from 0,0 --to 4,0 --radius 1"),
