@@ -299,17 +299,22 @@ fn is_closed(rules: Rules) -> bool {
     rules == Rules::Corner(DiagonalGap::Closed)
 }
 
+/// A lower bound of the cost of segments by a displacement, by the least costs of a step along each axis.
+pub(crate) fn at_any_angle(steps: [Cost; 2], v: Vector) -> Cost {
+    // A unit less: the costs of moves and of segments are rounded.
+    let [across, down] = steps.map(|step| step.to_bits().saturating_sub(1) as f64);
+    let (x, y) = v.abs();
+    let (x, y) = (f64::from(x) * across, f64::from(y) * down);
+    Cost::from_bits(((x * x + y * y).sqrt() * (1.0 - 4.0 * f64::EPSILON)) as u64)
+}
+
 impl PathCosts for CostGraph {
     fn least(&self, v: Vector) -> Cost {
         self.least_cost(v)
     }
 
     fn least_at_any_angle(&self, v: Vector) -> Cost {
-        // A unit less: the costs of moves and of segments are rounded.
-        let step = |v| self.least_cost(v).to_bits().saturating_sub(1) as f64;
-        let (x, y) = v.abs();
-        let (x, y) = (f64::from(x) * step(Vector::new(1, 0)), f64::from(y) * step(Vector::new(0, 1)));
-        Cost::from_bits(((x * x + y * y).sqrt() * (1.0 - 4.0 * f64::EPSILON)) as u64)
+        at_any_angle([Vector::new(1, 0), Vector::new(0, 1)].map(|step| self.least_cost(step)), v)
     }
 
     fn cost(&self, path: &Path) -> Cost {

@@ -1,9 +1,9 @@
 //! Stable names for the kinds of mistakes.
 
-#[cfg(feature = "costs")]
-use mediant_costs::{CostsError, LandmarksError};
 #[cfg(feature = "walking")]
 use mediant_costs::WalkingError;
+#[cfg(feature = "costs")]
+use mediant_costs::{CostsError, LandmarksError};
 use mediant_formats::{IndexError, ReadError};
 use mediant_grid::{GridError, names};
 use mediant_hierarchy::HierarchyError;

@@ -85,13 +85,9 @@ impl Space {
     ///
     /// # Errors
     /// [`SetupError`] where no engine does that for the space's motion: an index between centers above k = 8;
-    /// all distances at any angle (a [`field`](Self::field) has them).
+    /// all distances at any angle (a [`field`](Self::field) has them); an index over elevation.
     pub fn engine_for(&self, demand: Demand) -> Result<Choice, SetupError> {
-        if self.has_costs() {
-            Ok(demand.choice_on_costs(self))
-        } else {
-            demand.choice(self.motion(), self.map())
-        }
+        if self.has_costs() { demand.choice_on_costs(self) } else { demand.choice(self.motion(), self.map()) }
     }
 
     /// The setup of a call in this space, whose motion is the space's, for what is asked; and why its engine
@@ -107,7 +103,7 @@ impl Space {
         let (engine, choice) = match call.engine() {
             Some(engine) => (call.configured(engine)?, None),
             None => {
-                let choice = demand.choice_on_costs(self);
+                let choice = demand.choice_on_costs(self)?;
                 let recommended = Choice::for_many_paths_on_costs(self).engine;
                 let (engine, choice) = demand.with_options((choice, recommended), call.options(), check)?;
                 (engine, Some(choice))
@@ -148,15 +144,16 @@ impl Demand {
         }
     }
 
-    /// The engine that we would take where cells have costs.
-    fn choice_on_costs(self, space: &Space) -> Choice {
-        match self {
+    /// The engine that we would take where cells have costs or elevations.
+    fn choice_on_costs(self, space: &Space) -> Result<Choice, SetupError> {
+        Ok(match self {
             Self::Paths(0..=MOST_PATHS_WITHOUT_LANDMARKS) => Choice::ON_COSTS,
             Self::Changing { paths: 0..=PATHS_BETWEEN_EDITS_OF_COSTS } => Choice::ON_COSTS,
             Self::Paths(_) | Self::Changing { .. } => Choice::for_many_paths_on_costs(space),
             Self::Distances => DISTANCES,
+            Self::Index if space.walk().is_some() => return Err(SetupError::INDEX_OVER_ELEVATION),
             Self::Index => LANDMARKS,
-        }
+        })
     }
 
     /// The same with options: the same engine if it takes them, else the first one that takes them and does

@@ -5,10 +5,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-#[cfg(feature = "costs")]
-use mediant_costs::{CostsError, LandmarksError};
 #[cfg(feature = "walking")]
 use mediant_costs::WalkingError;
+#[cfg(feature = "costs")]
+use mediant_costs::{CostsError, LandmarksError};
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
 use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
 use mediant_hierarchy::HierarchyError;

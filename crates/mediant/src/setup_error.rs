@@ -199,6 +199,10 @@ impl SetupError {
     };
     pub(crate) const WIDEST_ON_COSTS: Self =
         Self::WithCosts { what: "widest path", instead: "raise the costs of cells near walls" };
+    pub(crate) const INDEX_OVER_ELEVATION: Self = Self::WithCosts {
+        what: "saved index over elevation",
+        instead: "prepare it, which takes next to nothing",
+    };
     pub(crate) const SMOOTHING_OVER_ELEVATION: Self =
         Self::WithCosts { what: "smoothing over elevation", instead: "take a greater k" };
     pub(crate) const EDITS_OVER_ELEVATION: Self =

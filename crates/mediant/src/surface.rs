@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Interrupt};
 #[cfg(feature = "costs")]
 use mediant_grid::Vertex;
+use mediant_grid::{Identity, Interrupt};
 use mediant_search::{Path, PathCosts, Smoothing};
 
 #[cfg(not(feature = "costs"))]

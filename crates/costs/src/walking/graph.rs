@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     error::CostsError,
+    graph::at_any_angle,
     graph::{CostGraph, steps},
     layout::Steps,
     scan::{Scanning, Visit},
@@ -209,6 +210,10 @@ impl WalkingGraph {
 impl PathCosts for WalkingGraph {
     fn least(&self, v: Vector) -> Cost {
         self.least_cost(v)
+    }
+
+    fn least_at_any_angle(&self, v: Vector) -> Cost {
+        at_any_angle([Vector::new(1, 0), Vector::new(0, 1)].map(|step| self.least_cost(step)), v)
     }
 
     fn cost(&self, path: &Path) -> Cost {

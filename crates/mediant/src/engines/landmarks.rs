@@ -133,7 +133,7 @@ mod index {
             let changed: Vec<_> = cells.filter(|&at| blocked(old, at) != blocked(new, at)).collect();
             let edits = changed.iter().map(|&(x, y)| (x, y, (!blocked(new, (x, y))).then_some(1.0)));
             let surface = self.graph.map().edit(edits)?;
-            Ok((Arc::new(self.graph.after(Arc::new(surface))?), changed))
+            Ok((Arc::new(self.graph.after(Arc::new(surface), &changed)?), changed))
         }
     }
 
