@@ -80,9 +80,6 @@ pub enum CompareError {
     /// A call of the library that failed.
     #[error(transparent)]
     Library(Box<mediant::Error>),
-    /// A call of the crate of cost surfaces that failed.
-    #[error(transparent)]
-    Costs(Box<dyn std::error::Error + Send + Sync>),
     /// A record that cannot be read.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -190,12 +187,6 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     match &options.json {
         None => Ok(()),
         Some(path) => write(path, report::json(root, &results)),
-    }
-}
-
-impl CompareError {
-    fn of_costs(error: impl std::error::Error + Send + Sync + 'static) -> Self {
-        Self::Costs(Box::new(error))
     }
 }
 

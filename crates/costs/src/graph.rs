@@ -65,9 +65,9 @@ impl CostGraph {
         Ok(Self { map, k, scanner, least })
     }
 
-    /// The search graph of another surface under the same rules and k: that after an edit, which changed these
-    /// cells at most. Where the surface has kept its units, it shares all tables, and closed gaps are looked
-    /// for around the cells alone. Cells outside the map are left out.
+    /// The search graph of another surface under the same rules and k: that after an edit, which changed
+    /// these cells at most. Where the surface has kept its units, it shares all tables, and closed gaps are
+    /// looked for around the cells alone. Cells outside the map are left out.
     ///
     /// # Errors
     /// None that this graph can have.

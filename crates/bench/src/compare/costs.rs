@@ -26,7 +26,7 @@ const SEED: u64 = 7;
 /// A part of the study.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
-    /// What k is worth.
+    /// The worth of k.
     Worth,
     /// Times of fields.
     Fields,
@@ -62,7 +62,6 @@ fn columns() -> Vec<Column> {
         Column::count("worst", "%", "worth: the greatest surplus"),
         Column::time("cell", "ns", "fields: the time of a cell on one thread, median"),
         Column::time("two", "ns", "fields: the same on two threads"),
-        Column::count("bytes", "B", "fields: the memory of a cell beside its cost, queue included"),
         Column::count("expanded", "", "paths: the vertices that a search expands, mean"),
         Column::time("query", "ms", "paths: A* on the space alone, mean"),
         Column::time("prepared", "s", "paths: the making of 8 landmarks"),

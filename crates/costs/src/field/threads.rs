@@ -196,21 +196,11 @@ fn work<M: Scanning>(
                 }
             }
         }
-        for (to, mine) in
-            messages[number].iter().zip(&mut visit.to_others).filter(|(_, mine)| !mine.is_empty())
-        {
-            // The other one has emptied it.
-            std::mem::swap(&mut *to.lock().unwrap_or_else(PoisonError::into_inner), mine);
-        }
+        visit.send(&messages[number]);
         if !meeting.wait() {
             break;
         }
-        for from in messages {
-            let mut from = from[number].lock().unwrap_or_else(PoisonError::into_inner);
-            for (state, cost) in from.drain(..) {
-                visit.lower(state as usize, cost);
-            }
-        }
+        messages.iter().for_each(|from| visit.read(&from[number]));
     }
     let of_messages: usize = messages[number]
         .iter()
@@ -230,6 +220,20 @@ struct Owned<'s> {
 }
 
 impl Owned<'_> {
+    /// Hands the messages over.
+    fn send(&mut self, to: &[Mutex<Vec<Message>>]) {
+        for (to, mine) in to.iter().zip(&mut self.to_others).filter(|(_, mine)| !mine.is_empty()) {
+            // The other one has emptied it.
+            std::mem::swap(&mut *to.lock().unwrap_or_else(PoisonError::into_inner), mine);
+        }
+    }
+
+    fn read(&mut self, messages: &Mutex<Vec<Message>>) {
+        for (state, cost) in messages.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+            self.lower(state as usize, cost);
+        }
+    }
+
     /// Lowers the cost of a state of this thread, if the new one is less.
     #[inline]
     fn lower(&mut self, state: usize, cost: u64) {

@@ -1,13 +1,15 @@
 //! Times of fields, by the side of the surface and by k.
 
-use std::{num::NonZeroUsize, sync::Arc, time::Instant};
+use std::{num::NonZeroUsize, time::Instant};
 
-use mediant_costs::{CostField, CostFieldQuery, CostSurface};
-use mediant_grid::{Interrupt, Vertex};
+use mediant::{Costs, Vertex};
 use mediant_oracle::{Rng, Surface};
 use mediant_report::{Row, stats::median};
 
-use super::{Part, SEED, surfaces::graph};
+use super::{
+    Part, SEED,
+    surfaces::{space, surface},
+};
 use crate::compare::CompareError;
 
 const SIDES: [u32; 5] = [1_024, 1_500, 2_048, 4_096, 8_192];
@@ -22,10 +24,7 @@ pub(super) const PASSES: usize = 3;
 pub(super) fn measure() -> Result<Vec<Row>, CompareError> {
     let mut rows = Vec::new();
     for side in SIDES {
-        let costs = Surface::Friction.costs(side, &mut Rng::new(SEED));
-        let cost = |x: u32, y: u32| Some(f64::from(costs[y as usize * side as usize + x as usize]));
-        let surface = Arc::new(CostSurface::from_fn(side, side, cost).map_err(CompareError::of_costs)?);
-        drop(costs);
+        let surface = surface(side, &Surface::Friction.costs(side, &mut Rng::new(SEED)))?;
         let great = GREAT_KS.into_iter().filter(|_| side == SIDE_OF_GREAT_KS);
         for k in KS.into_iter().chain(great) {
             rows.push(row(&surface, side, k)?);
@@ -34,25 +33,21 @@ pub(super) fn measure() -> Result<Vec<Row>, CompareError> {
     Ok(rows)
 }
 
-fn row(surface: &Arc<CostSurface>, side: u32, k: u32) -> Result<Row, CompareError> {
-    let graph = graph(surface, k)?;
-    let source = [Vertex::new(side as i32 / 2, side as i32 / 2)];
-    let cells = f64::from(side) * f64::from(side);
-    let mut bytes = 0;
-    let mut nanoseconds = |threads: NonZeroUsize| -> Result<Option<f64>, CompareError> {
+fn row(surface: &Costs, side: u32, k: u32) -> Result<Row, CompareError> {
+    let space = space(surface, k)?;
+    let source = Vertex::new(side as i32 / 2, side as i32 / 2);
+    let nanoseconds = |threads: NonZeroUsize| -> Result<Option<f64>, CompareError> {
+        let mut fields = space.fields()?.on_threads(threads);
         let mut times = Vec::new();
         for _ in 0..=PASSES {
             let begin = Instant::now();
-            let query = CostFieldQuery::new(&source);
-            let field = CostField::on_threads(Arc::clone(&graph), query, threads, &Interrupt::NEVER);
-            let field = field.map_err(CompareError::of_costs)?;
-            times.push(begin.elapsed().as_secs_f64() * 1e9 / cells);
-            bytes = CostField::bytes(&graph, false) + field.queue_bytes();
+            let field = fields.field([source])?;
+            times.push(begin.elapsed().as_secs_f64() * 1e9 / f64::from(side).powi(2));
+            drop(field);
         }
         Ok(median(&times[1..]))
     };
     let two = nanoseconds(NonZeroUsize::MIN.saturating_add(1))?;
     let one = nanoseconds(NonZeroUsize::MIN)?;
-    let row = Part::Fields.row(Surface::Friction.name(), side, k).with("cell", one).with("two", two);
-    Ok(row.with("bytes", bytes as f64 / cells))
+    Ok(Part::Fields.row(Surface::Friction.name(), side, k).with("cell", one).with("two", two))
 }

@@ -166,12 +166,6 @@ impl Page<'_> {
             }
         }
         self.figure("The time of a cell of a field, by the side of the surface", "fields", &chart);
-        self.text += "\nThe memory beside the costs, queue included, in bytes a cell (1500²): ";
-        let bytes = ks.iter().filter_map(|k| {
-            let bytes = self.row(Part::Fields, &[("side", "1500"), ("k", k)])?.number("bytes")?;
-            Some(format!("{bytes:.2} for k = {k}"))
-        });
-        self.text += &format!("{}.\n", bytes.collect::<Vec<_>>().join(", "));
     }
 
     fn paths(&mut self) {

@@ -1,14 +1,16 @@
 //! Times of paths, with landmarks and without.
 
-use std::{sync::Arc, time::Instant};
+use std::time::Instant;
 
-use mediant_costs::{CostAStar, CostGraph, Landmarks};
-use mediant_grid::{Interrupt, Vertex};
+use mediant::{Engine, Planner, Space, Vertex};
 use mediant_oracle::Rng;
 use mediant_report::Row;
-use mediant_search::{Counters, Ends, Planner};
+use mediant_search::Ends;
 
-use super::{Part, SEED, surfaces::Kind};
+use super::{
+    Part, SEED,
+    surfaces::{Kind, space},
+};
 use crate::compare::CompareError;
 
 const SIDE: u32 = 512;
@@ -20,59 +22,76 @@ const PASSES: usize = 3;
 /// and find paths of the same costs.
 pub(super) fn measure(surfaces: &[Kind]) -> Result<Vec<Row>, CompareError> {
     let mut rows = Vec::new();
-    for (surface, k) in surfaces.iter().flat_map(|surface| KS.map(|k| (surface, k))) {
-        let graph = surface.graph(SIDE, k)?;
-        let begin = Instant::now();
-        let landmarks = Landmarks::new(&graph, Landmarks::DEFAULT_COUNT, &Interrupt::NEVER);
-        let landmarks = Arc::new(landmarks.map_err(CompareError::of_costs)?);
-        let prepared = begin.elapsed().as_secs_f64();
-        let guided =
-            CostAStar::with_landmarks(Arc::clone(&graph), landmarks).map_err(CompareError::of_costs)?;
-        let mut planners = [CostAStar::new(Arc::clone(&graph)), guided];
-        let queries = queries(&graph, &mut planners[0])?;
-        let mut counters = [Counters::default(), Counters::default()];
-        let mut times = [0.0; 2];
-        for pass in 0..=PASSES {
-            let mut costs = [Vec::new(), Vec::new()];
-            for (at, planner) in planners.iter_mut().enumerate() {
-                let begin = Instant::now();
-                for &ends in &queries {
-                    let answer = planner.solve_observed(ends, &mut counters[at])?;
-                    costs[at].push(answer.path().and_then(|path| graph.path_cost(path)));
+    for surface in surfaces {
+        let costs = surface.surface(SIDE)?;
+        for k in KS {
+            let space = space(&costs, k)?;
+            let queries = queries(&space)?;
+            let begin = Instant::now();
+            let index = space.prepare(Engine::Landmarks)?;
+            let prepared = begin.elapsed().as_secs_f64();
+            let mut planners = [space.planner(Engine::AStar)?, index.try_planner()?];
+            let mut works = [Work::default(), Work::default()];
+            // The first pass warms.
+            for pass in 0..=PASSES {
+                for (planner, work) in planners.iter_mut().zip(&mut works) {
+                    work.add(planner, &queries, pass > 0)?;
                 }
-                // The first pass warms.
-                times[at] += if pass == 0 { 0.0 } else { begin.elapsed().as_secs_f64() };
             }
-            if costs[0] != costs[1] {
-                let total =
-                    |costs: &[Option<_>]| costs.iter().flatten().map(|&cost| graph.to_f64(cost)).sum();
-                return Err(CompareError::Lengths {
-                    engine: "A* with landmarks".to_owned(),
-                    map: surface.name().to_owned(),
-                    expected: total(&costs[0]),
-                    found: total(&costs[1]),
-                });
+            let [alone, guided] = &works;
+            if alone.cost.to_bits() != guided.cost.to_bits() {
+                let (expected, found) = (alone.cost, guided.cost);
+                let (engine, map) = (Engine::Landmarks.to_string(), surface.name().to_owned());
+                return Err(CompareError::Lengths { engine, map, expected, found });
             }
+            let row = Part::Paths.row(surface.name(), SIDE, k).with("prepared", prepared);
+            let row = row.with("expanded", alone.expanded()).with("guided", guided.expanded());
+            rows.push(row.with("query", alone.millis()).with("landmarks", guided.millis()));
         }
-        let all = (PASSES * queries.len()) as f64;
-        let expanded = counters.map(|counters| counters.expanded as f64 / (all + queries.len() as f64));
-        let [query, with] = times.map(|time| time * 1e3 / all);
-        let row = Part::Paths.row(surface.name(), SIDE, k).with("prepared", prepared);
-        let row = row.with("expanded", expanded[0]).with("guided", expanded[1]);
-        rows.push(row.with("query", query).with("landmarks", with));
     }
     Ok(rows)
 }
 
-fn queries(graph: &CostGraph, planner: &mut CostAStar) -> Result<Vec<Ends>, CompareError> {
+/// The work of a planner.
+#[derive(Default)]
+struct Work {
+    seconds: f64,
+    expanded: u64,
+    /// The sum of all costs, in the order of the queries.
+    cost: f64,
+}
+
+impl Work {
+    fn add(&mut self, planner: &mut Planner, queries: &[Ends], timed: bool) -> Result<(), CompareError> {
+        let begin = Instant::now();
+        for &ends in queries {
+            let (answer, counters) = planner.find_counted(ends)?;
+            if timed {
+                self.expanded += counters.expanded;
+                self.cost += answer.cost().unwrap_or(f64::NAN);
+            }
+        }
+        self.seconds += if timed { begin.elapsed().as_secs_f64() } else { 0.0 };
+        Ok(())
+    }
+
+    fn expanded(&self) -> f64 {
+        self.expanded as f64 / (PASSES * QUERIES) as f64
+    }
+
+    fn millis(&self) -> f64 {
+        self.seconds * 1e3 / (PASSES * QUERIES) as f64
+    }
+}
+
+fn queries(space: &Space) -> Result<Vec<Ends>, CompareError> {
     let mut rng = Rng::new(SEED);
     let mut queries = Vec::new();
     while queries.len() < QUERIES {
         let mut vertex = || Vertex::new(rng.below(SIDE) as i32, rng.below(SIDE) as i32);
-        let ends = Ends::new(vertex(), vertex());
-        let is_free = graph.is_free(ends.start) && graph.is_free(ends.goal);
-        if is_free && planner.solve(ends)?.path().is_some() {
-            queries.push(ends);
+        let (start, goal) = (vertex(), vertex());
+        if start != goal && space.connected(start, goal) {
+            queries.push(Ends::new(start, goal));
         }
     }
     Ok(queries)

@@ -2,14 +2,13 @@
 
 use std::{fs, path::Path};
 
-use mediant_costs::CostAStar;
+use mediant::Vertex;
 use mediant_formats::Picture;
-use mediant_grid::{Grid, PlacementKind, Vertex};
-use mediant_search::{Ends, Planner};
+use mediant_grid::PlacementKind;
 
 use super::{
     page::PICTURES,
-    surfaces::{Kind, graph},
+    surfaces::{Kind, space},
 };
 use crate::compare::CompareError;
 
@@ -21,22 +20,18 @@ const KS: [u32; 3] = [2, 3, 5];
 /// Writes the pictures into the project at `root`.
 pub(super) fn write(root: &Path, surfaces: &[Kind]) -> Result<(), CompareError> {
     for surface in surfaces.iter().filter(|surface| PICTURES.contains(&surface.name())) {
-        let costs = surface.costs(SIDE);
-        let cost = |at: Vertex| costs[(at.y as u32 * SIDE + at.x as u32) as usize];
-        let grid = Grid::from_fn(SIDE, SIDE, |x, y| costs[(y * SIDE + x) as usize] == 0)?;
-        let finest = surface.graph(SIDE, KS[KS.len() - 1])?;
+        let costs = surface.surface(SIDE)?;
         let free = |near: [i32; 2]| {
             let cells = (0..SIDE as i32).flat_map(|y| (0..SIDE as i32).map(move |x| Vertex::new(x, y)));
             let distance = |at: &Vertex| (at.x - near[0]).pow(2) + (at.y - near[1]).pow(2);
-            cells.filter(|&at| finest.is_free(at)).min_by_key(distance)
+            cells.filter(|&at| costs.map().is_free(at)).min_by_key(distance)
         };
         let last = SIDE as i32 - 1;
         let (Some(start), Some(goal)) = (free([4, last - 20]), free([last - 4, 12])) else { continue };
-        let mut picture = Picture::new(&grid, PlacementKind::Center).largest_side(960);
-        picture = picture.field(|at| Some(f64::from(cost(at))).filter(|&cost| cost > 0.0));
+        let mut picture = Picture::new(costs.map().grid(), PlacementKind::Center).largest_side(960);
+        picture = picture.field(|at| costs.cost(at));
         for k in KS {
-            let mut planner = CostAStar::new(graph(finest.map(), k)?);
-            let Some(path) = planner.solve(Ends::new(start, goal))?.into_path() else { continue };
+            let Some(path) = space(&costs, k)?.path(start, goal)? else { continue };
             let points = path.waypoints().iter().map(|at| (f64::from(at.x), f64::from(at.y)));
             picture = picture.path(format!("k = {k}"), points);
         }

@@ -1,10 +1,6 @@
 //! The surfaces of the study: five by a seed, and a map of a game by its terrain.
 
-use std::sync::Arc;
-
-use mediant_costs::{CostGraph, CostSurface};
-use mediant_grid::{CornerRule, Rules};
-use mediant_moves::FiniteK;
+use mediant::{Costs, FiniteK, Map, Motion, Space};
 use mediant_oracle::{Rng, Surface};
 use mediant_sets::Archive;
 
@@ -47,21 +43,22 @@ impl Kind {
         }
     }
 
-    /// The search graph between centers under `never`.
-    pub(super) fn graph(&self, side: u32, k: u32) -> Result<Arc<CostGraph>, CompareError> {
-        let costs = self.costs(side);
-        let cost =
-            |x: u32, y: u32| Some(f64::from(costs[(y * side + x) as usize])).filter(|&cost| cost > 0.0);
-        let surface = Arc::new(CostSurface::from_fn(side, side, cost).map_err(CompareError::of_costs)?);
-        graph(&surface, k)
+    /// The surface of side × side cells.
+    pub(super) fn surface(&self, side: u32) -> Result<Costs, CompareError> {
+        surface(side, &self.costs(side))
     }
 }
 
-/// The search graph of a surface, between centers under `never`.
-pub(super) fn graph(surface: &Arc<CostSurface>, k: u32) -> Result<Arc<CostGraph>, CompareError> {
-    let k = FiniteK::new(k).map_err(CompareError::of_costs)?;
-    let graph = CostGraph::new(Arc::clone(surface), Rules::Center(CornerRule::Never), k);
-    Ok(Arc::new(graph.map_err(CompareError::of_costs)?))
+/// The surface of these costs, row by row; 0 is blocked.
+pub(super) fn surface(side: u32, costs: &[u32]) -> Result<Costs, CompareError> {
+    let map = Map::from_bits(side, costs.iter().map(|&cost| cost == 0))?;
+    Ok(map.costs(costs.iter().copied())?)
+}
+
+/// The space of a surface between centers; corners are never cut.
+pub(super) fn space(surface: &Costs, k: u32) -> Result<Space, CompareError> {
+    let k = FiniteK::new(k).map_err(mediant::Error::from)?;
+    Ok(surface.space(Motion::centers(k))?)
 }
 
 /// All kinds; without the map if it is not there.

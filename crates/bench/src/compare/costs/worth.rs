@@ -1,16 +1,14 @@
-//! What k is worth: the costs for k = 2 to 8 over those for k = 12.
+//! The worth of k: the costs for k = 2 to 8 over those for k = 12.
 
-use std::{cmp::Reverse, collections::BinaryHeap, sync::Arc};
+use std::{cmp::Reverse, collections::BinaryHeap};
 
-use mediant_costs::{CostField, CostFieldQuery, CostGraph};
-use mediant_grid::{Interrupt, Vertex};
-use mediant_moves::{FiniteK, Neighborhood, Vector};
+use mediant::{Costs, Field, FiniteK, Path, Space, Vertex, moves::Neighborhood};
 use mediant_oracle::Rng;
 use mediant_report::{Row, stats::mean};
 
 use super::{
     Part, SEED,
-    surfaces::{Kind, graph},
+    surfaces::{Kind, space},
 };
 use crate::compare::CompareError;
 
@@ -19,24 +17,21 @@ const SIDE: u32 = 160;
 /// The sources, a field each.
 const SOURCES: usize = 2;
 const KS: [u32; 7] = [2, 3, 4, 5, 6, 7, 8];
-/// The k that stands for all angles: its paths are at most 0.0006 % longer than the shortest on free ground.
+/// The k that stands for all angles.
 const REFERENCE: u32 = 12;
 
 pub(super) fn measure(surfaces: &[Kind]) -> Result<Vec<Row>, CompareError> {
     let mut rows = Vec::new();
     for surface in surfaces {
-        let finest = surface.graph(SIDE, KS[KS.len() - 1])?;
+        let costs = surface.surface(SIDE)?;
+        let finest = space(&costs, KS[KS.len() - 1])?;
         let mut surplus: Vec<Vec<f64>> = vec![Vec::new(); KS.len()];
-        for source in sources(&finest) {
-            let reference = reference(&finest, source)?;
+        for source in sources(&finest)? {
+            let reference = reference(&costs, &finest, source)?;
             for (k, surplus) in KS.into_iter().zip(&mut surplus) {
-                let field = field(&graph(finest.map(), k)?, source)?;
-                let costs = field.iter().filter(|&(at, _)| at != source);
-                surplus.extend(costs.map(|(at, _)| {
-                    let [found, least] =
-                        [field.cost(at), reference[index(at)]].map(Option::unwrap_or_default);
-                    100.0 * (finest.to_f64(found) / finest.to_f64(least) - 1.0)
-                }));
+                let field = space(&costs, k)?.field([source])?;
+                let others = field.iter().filter(|&(at, _)| at != source);
+                surplus.extend(others.map(|(at, cost)| 100.0 * (cost / reference[index(at)] - 1.0)));
             }
         }
         for (k, mut surplus) in KS.into_iter().zip(surplus) {
@@ -54,70 +49,55 @@ const fn index(at: Vertex) -> usize {
     at.y as usize * SIDE as usize + at.x as usize
 }
 
-/// Random vertices from which much can be reached.
-fn sources(graph: &Arc<CostGraph>) -> Vec<Vertex> {
+const fn vertex(index: usize) -> Vertex {
+    Vertex::new((index % SIDE as usize) as i32, (index / SIDE as usize) as i32)
+}
+
+/// Random vertices from which a quarter of the cells and more can be reached.
+fn sources(space: &Space) -> Result<Vec<Vertex>, CompareError> {
     let mut rng = Rng::new(SEED);
     let mut found = Vec::new();
     for _ in 0..1_000 {
-        let at = Vertex::new(rng.below(SIDE) as i32, rng.below(SIDE) as i32);
-        let reached = field(graph, at).map_or(0, |field| field.iter().count());
-        if found.len() < SOURCES && reached as u32 > SIDE * SIDE / 4 {
-            found.push(at);
-        }
-        if found.len() == SOURCES {
-            break;
+        let at = vertex(rng.below(SIDE * SIDE) as usize);
+        if found.len() < SOURCES && space.is_free(at) {
+            let reached = space.field([at])?.iter().count();
+            found.extend((4 * reached > (SIDE * SIDE) as usize).then_some(at));
         }
     }
-    found
+    Ok(found)
 }
 
-fn field(graph: &Arc<CostGraph>, source: Vertex) -> Result<CostField, CompareError> {
-    let field = CostField::new(Arc::clone(graph), CostFieldQuery::new(&[source]), &Interrupt::NEVER);
-    field.map_err(CompareError::of_costs)
-}
-
-/// The least costs for k = 12: Dijkstra's algorithm on all moves. It begins with the costs for a lower k,
-/// which paths over N(12) have as well; a move that cannot better a cost, even over the cheapest cells, is
-/// left out.
-fn reference(
-    graph: &Arc<CostGraph>,
-    source: Vertex,
-) -> Result<Vec<Option<mediant_moves::Cost>>, CompareError> {
-    let k = FiniteK::new(REFERENCE).map_err(CompareError::of_costs)?;
-    let (least, _) = graph.map().bounds();
-    let unit = graph.map().unit();
-    let moves: Vec<(Vector, u64)> = Neighborhood::new(k)
-        .map_err(CompareError::of_costs)?
-        .iter()
-        .map(|v| (v, (least * v.norm() / unit) as u64))
-        .collect();
-    let known = field(graph, source)?;
-    let mut costs: Vec<_> =
-        (0..SIDE * SIDE).map(|at| known.cost(Vertex::new((at % SIDE) as i32, (at / SIDE) as i32))).collect();
-    let mut open: BinaryHeap<_> = costs
-        .iter()
-        .zip(0_u32..)
-        .filter_map(|(cost, at)| Some(Reverse((cost.as_ref()?.to_bits(), at))))
-        .collect();
+/// The least costs for k = 12, infinite where there is no path: Dijkstra's algorithm on all moves. It begins
+/// with the costs for a lower k, which paths over N(12) have as well; a move that cannot better a cost, even
+/// over the cheapest cells, is left out.
+fn reference(costs: &Costs, space: &Space, source: Vertex) -> Result<Vec<f64>, CompareError> {
+    let k = FiniteK::new(REFERENCE).map_err(mediant::Error::from)?;
+    let ((cheapest, _), unit) = (costs.bounds(), costs.unit());
+    let moves = Neighborhood::new(k).map_err(mediant::Error::from)?;
+    let moves: Vec<_> = moves.iter().map(|v| (v, cheapest * v.norm())).collect();
+    let known: Field = space.field([source])?;
+    let mut best = known.lengths();
+    // Costs are multiples of the unit, a power of two: exact integers.
+    let integer = |cost: f64| (cost / unit) as u64;
+    let reached = best.iter().zip(0..).filter(|(cost, _)| cost.is_finite());
+    let mut open: BinaryHeap<_> = reached.map(|(&cost, at)| Reverse((integer(cost), at))).collect();
     while let Some(Reverse((cost, at))) = open.pop() {
-        if costs[at as usize].map(mediant_moves::Cost::to_bits) != Some(cost) {
+        if integer(best[at]) != cost {
             continue;
         }
-        let from = Vertex::new((at % SIDE) as i32, (at / SIDE) as i32);
-        for &(v, at_least) in &moves {
+        let (from, cost) = (vertex(at), best[at]);
+        for &(v, least) in &moves {
             let to = Vertex::new(from.x + v.x, from.y + v.y);
             let is_inside = (0..SIDE as i32).contains(&to.x) && (0..SIDE as i32).contains(&to.y);
-            let Some(best) = is_inside.then(|| costs[index(to)]).flatten() else { continue };
-            if cost + at_least >= best.to_bits() {
+            if !is_inside || best[index(to)].is_infinite() || cost + least >= best[index(to)] {
                 continue;
             }
-            let Some(of_move) = graph.line_cost(from, to) else { continue };
-            let new = cost + of_move.to_bits();
-            if new < best.to_bits() {
-                costs[index(to)] = Some(mediant_moves::Cost::from_bits(new));
-                open.push(Reverse((new, index(to) as u32)));
+            let Some(of_move) = space.cost(&Path::new(vec![from, to])) else { continue };
+            if cost + of_move < best[index(to)] {
+                best[index(to)] = cost + of_move;
+                open.push(Reverse((integer(cost + of_move), index(to))));
             }
         }
     }
-    Ok(costs)
+    Ok(best)
 }
