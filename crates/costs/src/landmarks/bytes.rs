@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use mediant_grid::{Identity, Interrupt, Interrupted};
 
-use super::{Landmarks, error::LandmarksError, is_blocked, lines::Lines, scan};
-use crate::{graph::CostGraph, scan::Visit};
+use super::{Landmarks, error::LandmarksError, is_blocked, lines::Lines};
+use crate::{
+    graph::CostGraph,
+    scan::{Visit, scan},
+};
 
 impl Landmarks {
     /// The version of the format of [`to_bytes`](Self::to_bytes).

@@ -2,8 +2,11 @@
 
 use mediant_grid::{Interrupt, Interrupted, Vertex};
 
-use super::{is_blocked, scan};
-use crate::{graph::CostGraph, scan::Visit};
+use super::is_blocked;
+use crate::{
+    graph::CostGraph,
+    scan::{Visit, scan},
+};
 
 /// The components that have landmarks.
 pub(super) struct Components {

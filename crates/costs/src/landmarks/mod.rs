@@ -35,11 +35,7 @@ use mediant_moves::Cost;
 
 pub use self::error::LandmarksError;
 use self::{choice::Components, lines::Lines};
-use crate::{
-    CostField, CostFieldError, CostFieldQuery,
-    graph::CostGraph,
-    scan::{Visit, by_kind},
-};
+use crate::{CostField, CostFieldError, CostFieldQuery, graph::CostGraph};
 
 /// Lower bounds of the costs between all vertices of a graph, by fields from a few landmarks: the index of a
 /// cost surface. Immutable; share it between planners.
@@ -207,12 +203,6 @@ impl Landmarks {
 }
 
 pub(crate) use lines::Numbers;
-
-/// Visits the legal moves from a state, by the scan that is made for the graph's k.
-fn scan(graph: &CostGraph, from: (usize, u64), visit: &mut impl Visit) {
-    let (scanner, weights) = (graph.scanner(), graph.map().weights());
-    by_kind!(graph, [scanner.scan](weights, from, visit));
-}
 
 /// Whether a state is blocked whatever the moves: then no scan asks for more of it.
 #[inline]

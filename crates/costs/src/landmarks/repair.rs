@@ -9,9 +9,11 @@ use super::{
     error::LandmarksError,
     is_blocked,
     lines::{Lines, LinesEdit},
-    scan,
 };
-use crate::{graph::CostGraph, scan::Visit};
+use crate::{
+    graph::CostGraph,
+    scan::{Visit, scan},
+};
 
 /// A number is lowered in so many times the time that it takes to make it.
 const SLOWNESS: usize = 8;

@@ -16,7 +16,7 @@ use crate::{
     graph::{CostGraph, primitive},
     guide::Guide,
     landmarks::Landmarks,
-    scan::{Visit, by_kind},
+    scan::{Visit, scan},
 };
 
 /// Theta* (Nash, Daniel, Koenig & Felner 2007) on a cost surface: A* in which the parent of a node may be the
@@ -148,10 +148,10 @@ impl CostTheta {
     }
 
     /// Expands nodes until the goal is the best open node, none is open, or the observer pauses.
-    fn run<const K: u32, const CENTER: bool>(&mut self, observer: &mut impl Observer) -> SearchStatus {
+    fn run(&mut self, observer: &mut impl Observer) -> SearchStatus {
         let Self { graph, nodes, open, goal, guide, is_lazy, .. } = self;
         let (graph, guide, is_lazy): (&CostGraph, &Guide, bool) = (graph, guide, *is_lazy);
-        let (scanner, weights) = (graph.scanner(), graph.map().weights());
+        let weights = graph.map().weights();
         let goal_id = id(*goal);
         while open.get(0).is_none_or(|best| best.id() == goal_id || !observer.pauses(best.f())) {
             let Some((entry, swaps)) = open.pop(|id, slot| nodes.set_slot(id, slot)) else {
@@ -184,7 +184,7 @@ impl CostTheta {
             let goal_at = graph.vertex(*goal);
             let mut relaxing =
                 Relaxing { graph, guide, goal_at, here: (state, at), above, weights, nodes, open, observer };
-            scanner.scan::<K, CENTER>(weights, (state, node.g.to_bits()), &mut relaxing);
+            scan(graph, (state, node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
     }
@@ -292,7 +292,7 @@ impl Planner for CostTheta {
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if self.status == SearchStatus::Searching {
-            self.status = by_kind!(self.graph, [self.run](observer));
+            self.status = self.run(observer);
         }
         Ok(self.status)
     }
