@@ -51,7 +51,7 @@ pub use error::{CostFieldError, CostsError};
 pub use field::{CostField, CostFieldQuery, DirectionCode};
 pub use graph::CostGraph;
 pub use landmarks::{Landmarks, LandmarksError};
-pub use surface::CostSurface;
+pub use surface::{CostSurface, CostUnits};
 pub use theta::{CostTheta, smooth};
 pub use walking::{
     Heading, Langmuir, Pace, WalkingAStar, WalkingError, WalkingField, WalkingGraph, WalkingMap,

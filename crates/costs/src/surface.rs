@@ -32,6 +32,19 @@ pub struct CostSurface {
     id: MapId,
 }
 
+/// What the integers of a surface stand for. [`CostSurface::in_units`] makes the same surface again, of its
+/// costs and these, wherever they were sent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostUnits {
+    /// The [bounds](CostSurface::bounds) of the costs.
+    pub bounds: (f64, f64),
+    /// The unit of costs as they are kept: each is a multiple of it, below 2³². It is 1 where all are
+    /// integers.
+    pub step: f64,
+    /// The width and the height of a cell.
+    pub cell_size: (f64, f64),
+}
+
 /// The width and the height of a cell where nothing is said: 1 × 1.
 const UNIT_CELL: (f64, f64) = (1.0, 1.0);
 /// The stage that an interrupted call names.
@@ -100,6 +113,43 @@ impl CostSurface {
             }
         }
         let scale = bounds.scale(layout, cell_size)?;
+        Self::filled(layout, scale, interrupt, |x, y| cost(x, y).and_then(|cost| scale.weight(cost)))
+    }
+
+    /// The surface that has these [units](Self::units), of its costs as it tells them.
+    ///
+    /// ```
+    /// use mediant_costs::CostSurface;
+    /// use mediant_grid::Interrupt;
+    ///
+    /// // The greatest cost was another one: the units are those of before.
+    /// let map = CostSurface::from_fn(3, 1, |x, _| Some(0.5 + f64::from(x)))?.edit([(2, 0, Some(0.7))])?;
+    /// let again = CostSurface::in_units((3, 1), map.units(), &Interrupt::NEVER, |x, y| map.cost(x, y))?;
+    /// assert_eq!(again.id(), map.id());
+    /// # Ok::<(), mediant_costs::CostsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`with_cells`](Self::with_cells); [`CostsError::Cost`], too, for a cost out of bounds.
+    pub fn in_units(
+        (width, height): (u32, u32),
+        units: CostUnits,
+        interrupt: &Interrupt,
+        cost: impl Fn(u32, u32) -> Option<f64>,
+    ) -> Result<Self, CostsError> {
+        let layout = Self::layout_of(width, height)?;
+        let CostUnits { bounds: (least, greatest), step, cell_size } = units;
+        let mut bounds = Bounds { bounds: None, has_fractions: step.to_bits() != 1.0_f64.to_bits() };
+        bounds.include((0, 0), least)?;
+        bounds.include((0, 0), greatest)?;
+        let scale = bounds.scale(layout, cell_size)?;
+        for y in 0..height {
+            interrupt.check(STAGE)?;
+            let mut costs = (0..width).filter_map(|x| Some((x, cost(x, y)?)));
+            if let Some((x, cost)) = costs.find(|&(_, cost)| scale.weight(cost).is_none()) {
+                return Err(CostsError::Cost { x, y, cost });
+            }
+        }
         Self::filled(layout, scale, interrupt, |x, y| cost(x, y).and_then(|cost| scale.weight(cost)))
     }
 
@@ -206,6 +256,12 @@ impl CostSurface {
     #[must_use]
     pub fn unit(&self) -> f64 {
         self.scale.unit()
+    }
+
+    /// The units of its integers, and the bounds of its costs.
+    #[must_use]
+    pub fn units(&self) -> CostUnits {
+        CostUnits { bounds: self.bounds(), step: self.scale.cost_of_weight(1), cell_size: self.cell_size() }
     }
 
     /// This surface with the costs of some cells changed: of each its column, its row, and its cost, or

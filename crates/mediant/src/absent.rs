@@ -1,8 +1,8 @@
 //! Features that the library does not have.
 
 /// The answer to cells that hold costs where a cell is free or blocked.
-pub const NO_COSTS: &str = "costs are given where a map is made; here a cell is free or blocked, and costs of cells \
-     are not supported";
+pub const NO_COSTS: &str =
+    "here a cell is free or blocked; a map with costs of cells is one that is made with `costs`";
 
 /// How names of parameters that people look for begin, in small letters without hyphens and underscores; and
 /// why there are none.

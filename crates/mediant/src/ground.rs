@@ -7,6 +7,8 @@ use mediant_search::Limits;
 
 #[cfg(feature = "costs")]
 use crate::costs::Costs;
+#[cfg(feature = "costs")]
+use crate::setup_error::SetupError;
 use crate::{
     call::{Call, CallError},
     error::Error,
@@ -150,6 +152,19 @@ impl Ground {
             #[cfg(feature = "costs")]
             Self::Costs(costs) => Ok(costs.block_cells(cells)?.into()),
         }
+    }
+
+    /// This ground with other costs of some cells: see [`Costs::edit_cells`].
+    ///
+    /// # Errors
+    /// As for [`Costs::edit_cells`]; [`SetupError::WithoutCosts`] for a map.
+    #[cfg(feature = "costs")]
+    pub fn edit_costs<C: Into<Vertex>>(
+        &self,
+        cells: impl IntoIterator<Item = (C, Option<f64>)>,
+    ) -> Result<Self, Error> {
+        let costs = self.costs().ok_or(SetupError::WithoutCosts)?;
+        Ok(costs.edit_cells(cells)?.into())
     }
 }
 

@@ -232,6 +232,8 @@ pub mod cookbook;
 mod costmap;
 #[cfg(feature = "costs")]
 mod costs;
+#[cfg(feature = "costs")]
+mod costs_by;
 mod demand;
 mod engine;
 mod engine_name;
@@ -303,7 +305,7 @@ pub use index::{Index, Origin};
 pub use limits::Limits;
 pub use map::Map;
 #[cfg(feature = "costs")]
-pub use mediant_costs::{DirectionCode, Inflation, Traversal};
+pub use mediant_costs::{CostUnits, DirectionCode, Inflation, Traversal};
 #[cfg(feature = "walking")]
 pub use mediant_costs::{Langmuir, Pace};
 #[doc(hidden)]

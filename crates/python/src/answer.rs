@@ -1,7 +1,7 @@
 //! The answer to a query.
 
 use mediant::{
-    Answer, Engine, Error, ErrorCode, Guarantee, Limit, Planner, Rules, Stopped, search::Counters,
+    Answer, Engine, Error, ErrorCode, Guarantee, Limit, Path, Planner, Rules, Stopped, search::Counters,
 };
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
@@ -18,7 +18,12 @@ use crate::{arrays::PathPoints, errors::made};
 /// path : numpy.ndarray or None
 ///     The path, shape (n, 2), int32: of a found or nearest answer.
 /// distance : float
-///     Its length in cells, as `Grid.distance` measures it; ``inf`` if unreachable, ``nan`` if stopped.
+///     Its length in cells, as `Grid.distance` measures it: where cells have costs its cost. ``inf`` if
+///     unreachable, ``nan`` if stopped.
+/// cost : float
+///     The same number by another name.
+/// length : float
+///     Its length in cells, also where cells have costs.
 /// stopped_by : str or None
 ///     The limit: ``"cost"``, ``"expansions"`` or ``"timeout"``.
 /// best : numpy.ndarray or None
@@ -57,9 +62,12 @@ pub(crate) struct PyAnswer {
     /// The path, shape (n, 2).
     #[pyo3(get)]
     path: Option<Py<PyArray2<i32>>>,
-    /// The length of the path in cells.
+    /// The length of the path in cells; where cells have costs its cost.
     #[pyo3(get)]
     distance: f64,
+    /// The length of the path in cells.
+    #[pyo3(get)]
+    length: f64,
     /// The limit that stopped the search.
     #[pyo3(get)]
     stopped_by: Option<&'static str>,
@@ -105,6 +113,12 @@ impl Searched {
 
 #[pymethods]
 impl PyAnswer {
+    /// The cost of the path; without costs of cells its length.
+    #[getter]
+    const fn cost(&self) -> f64 {
+        self.distance
+    }
+
     fn __repr__(&self) -> String {
         let Self { status, distance, .. } = self;
         format!("<mediant.Answer {status}, distance {distance}>")
@@ -121,10 +135,14 @@ impl PyAnswer {
         Searched { guarantee, counters, by }: Searched,
     ) -> PyResult<Self> {
         let array = |path| points.array(py, path, rules.placement()).map(Bound::unbind);
+        let distance = answer.distance(guarantee);
+        // Elsewhere the distance is the length, rounded as searches do.
+        let on_costs = |path: &&Path| path.cost().to_bits() != path.length().to_bits();
         Ok(Self {
             status: answer.status().name(),
             path: answer.path().map(array).transpose()?,
-            distance: answer.distance(guarantee),
+            distance,
+            length: answer.path().filter(on_costs).map_or(distance, Path::length),
             stopped_by: answer.stopped_by().map(Limit::name),
             best: answer.best().map(array).transpose()?,
             lower_bound: answer.lower_bound(guarantee),
@@ -142,8 +160,8 @@ impl PyAnswer {
 pub(crate) fn whole(py: Python<'_>, answer: Answer, points: PathPoints, rules: Rules) -> PyResult<Answer> {
     let Answer::Stopped(Stopped { by, lower_bound, .. }) = &answer else { return Ok(answer) };
     let text = format!(
-        "the search was stopped by its limit ({}): no path is shorter than {lower_bound:.3} cells; the best so \
-         far is in the error's answer",
+        "the search was stopped by its limit ({}): no path is shorter, or cheaper, than {lower_bound:.3}; the \
+         best so far is in the error's answer",
         by.name()
     );
     let told = PyAnswer::new(py, &answer, points, rules, Searched::NOT)?;

@@ -120,7 +120,7 @@ fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, P
 }
 
 /// Whether the numbers of an array lie where numbers of their size may, and whole numbers apart.
-fn is_whole(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
+pub(crate) fn is_whole(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
     let size = array.dtype().itemsize().max(1) as isize;
     let is_apart = array.strides().iter().all(|stride| stride % size == 0);
     Ok(is_apart && array.getattr("flags")?.getattr("aligned")?.is_truthy()?)

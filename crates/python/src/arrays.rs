@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Limits, Map, Path, PlacementKind, Vertex, errors::NO_COSTS, grid::Grid, names};
+use mediant::{Limits, Map, Path, PlacementKind, Vertex, grid::Grid, names};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
@@ -41,8 +41,9 @@ pub(crate) fn map_of<'py>(array: &Bound<'py, PyAny>, criteria: &Criteria<'py>) -
             map_of_bools("array", &blocked)
         }
         b'i' | b'u' | b'f' => Err(PyTypeError::new_err(format!(
-            "array: expected dtype bool (True is blocked), found {}: {NO_COSTS}; say which values are blocked, \
-             by above=, below= or values=, or make an array of bool, for instance array > limit",
+            "array: expected dtype bool (True is blocked), found {}; if these are costs of cells, give them as \
+             costs=, or alone to Grid.from_costs; else say which values are blocked, by above=, below= or \
+             values=, or make an array of bool, for instance array > limit",
             array.dtype()
         ))),
         _ => Err(PyTypeError::new_err(format!("array: expected numbers or bool, found {}", array.dtype()))),
@@ -211,8 +212,8 @@ pub(crate) fn patch(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<bool>
     let array = plane(name, value)?;
     if array.dtype().kind() != b'b' {
         return Err(PyTypeError::new_err(format!(
-            "{name}: expected dtype bool (True is blocked), found {}: {NO_COSTS}; make an array of bool, for \
-             instance array > limit",
+            "{name}: expected dtype bool (True is blocked), found {}: costs of cells are changed by \
+             Grid.edit_costs; make an array of bool, for instance array > limit",
             array.dtype()
         )));
     }

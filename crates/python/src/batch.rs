@@ -303,11 +303,11 @@ pub(crate) fn paths(
 ) -> PyResult<Paths> {
     let index = planners.index();
     let (setup, is_watched) = (index.setup(), queries.are_watched(index));
-    let (placement, guarantee) = (setup.rules().placement(), setup.guarantee());
+    let placement = setup.rules().placement();
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = planner.find(queries.query(index, is_watched.then_some(flag)));
-        chunk.add_path(index, &found, (points, placement, guarantee));
+        chunk.add_path(index, &found, (points, placement, planner.guarantee()));
     };
     let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
     let (points, offsets, distances, statuses) = py.detach(|| {
@@ -336,8 +336,7 @@ pub(crate) fn distances<'py>(
     queries: Queries,
     batch: &Batch<'_>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let (is_watched, guarantee) =
-        (queries.are_watched(planners.index()), planners.index().setup().guarantee());
+    let is_watched = queries.are_watched(planners.index());
     let is_plain = queries.keywords.call.wishes().is_none() && !is_watched;
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
@@ -345,7 +344,7 @@ pub(crate) fn distances<'py>(
             planner.distance(queries.ends(index)).map(|distance| distance.unwrap_or(f64::INFINITY))
         } else {
             let query = queries.query(index, is_watched.then_some(flag));
-            planner.find(query).map(|answer| answer.distance(guarantee))
+            planner.find(query).map(|answer| answer.distance(planner.guarantee()))
         };
         chunk.add_distance(index, found);
     };

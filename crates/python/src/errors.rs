@@ -63,6 +63,10 @@ pub(crate) fn raised(error: impl Into<Error>) -> PyErr {
     }
     let text = match &error {
         Error::Call(error) => error.text(Spelling::Snake),
+        Error::Freed { cell } => format!(
+            "cell ({}, {}) is freed, and has no cost: give it one by Grid.edit_costs, which frees it",
+            cell.y, cell.x
+        ),
         error => error.to_string(),
     };
     exception(class(code), &text, code.name())

@@ -1,6 +1,8 @@
 //! Distance fields.
 
-use mediant::{Map, PlacementKind, Vertex};
+use std::collections::HashMap;
+
+use mediant::{Ground, PlacementKind, Vertex};
 use mediant_formats::Picture;
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyBytes};
@@ -8,11 +10,13 @@ use pyo3::{prelude::*, types::PyBytes};
 use crate::{
     arguments::point as vertex,
     arrays::{PathPoints, png_of, rows_array},
+    errors::{raised, wrong_type},
 };
 
 /// The distance of every vertex to the nearest of one or several sources, with the paths to it.
 ///
-/// `Grid.field` makes it.
+/// `Grid.field` makes it. Where cells have costs it has the least costs in place of distances: what GIS calls
+/// a cost distance.
 ///
 /// Attributes
 /// ----------
@@ -30,14 +34,54 @@ use crate::{
 #[pyclass(frozen, module = "mediant")]
 pub(crate) struct Field {
     inner: mediant::Field,
+    sources: Vec<Vertex>,
     placement: PlacementKind,
-    /// For pictures.
-    map: Map,
+    ground: Ground,
 }
 
 impl Field {
-    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind, map: Map) -> Self {
-        Self { inner, placement, map }
+    pub(crate) const fn new(
+        inner: mediant::Field,
+        sources: Vec<Vertex>,
+        placement: PlacementKind,
+        ground: Ground,
+    ) -> Self {
+        Self { inner, sources, placement, ground }
+    }
+
+    /// The number of the source to which each vertex leads, row by row; -1 where none does.
+    fn numbers(&self) -> Vec<i32> {
+        let mut known = HashMap::new();
+        for (number, &at) in (0..).zip(&self.sources) {
+            known.entry(at).or_insert(number);
+        }
+        let number = |at: Vertex| known.get(&at).copied();
+        if self.ground.costs().is_some() {
+            return self
+                .vertices()
+                .map(|at| self.inner.nearest_source(at).and_then(number).unwrap_or(-1))
+                .collect();
+        }
+        // A vertex leads where the next one does, whose number is known then.
+        let width = self.inner.width() as usize;
+        let index = |at: Vertex| at.y as usize * width + at.x as usize;
+        let mut numbers = vec![UNKNOWN; width * self.inner.height() as usize];
+        let mut way = Vec::new();
+        for from in self.vertices() {
+            let mut at = from;
+            let found = loop {
+                if numbers[index(at)] != UNKNOWN {
+                    break numbers[index(at)];
+                }
+                way.push(at);
+                match self.inner.next(at) {
+                    Some(next) => at = next,
+                    None => break number(at).filter(|_| self.inner.get(at).is_some()).unwrap_or(-1),
+                }
+            };
+            way.drain(..).for_each(|at| numbers[index(at)] = found);
+        }
+        numbers
     }
 
     /// All vertices, row by row.
@@ -46,6 +90,9 @@ impl Field {
         (0..height).flat_map(move |y| (0..width).map(move |x| Vertex::new(x, y)))
     }
 }
+
+/// The number of a source that is not known yet.
+const UNKNOWN: i32 = -2;
 
 #[pymethods]
 impl Field {
@@ -60,7 +107,8 @@ impl Field {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     The shape of the field, float64, in cells; ``inf`` where no path leads, or none within the limit.
+    ///     The shape of the field, float64, in cells, or costs where cells have costs; ``inf`` where no path
+    ///     leads, or none within the limit.
     ///     At a number k they are sums of rounded moves, the same numbers as those of `Grid.distance` and
     ///     tables; they differ from the length of a path's lines by less than 1 in 2³³.
     ///
@@ -192,9 +240,91 @@ impl Field {
         Ok(source.map(|at| (at.y, at.x)))
     }
 
+    /// The numbers of the nearest sources: to which of them each vertex belongs.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field, int32: the index of the source in the list that the field was made of; -1
+    ///     where no path leads. Of several that are equally near it is one; where cells have costs, the first.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["..#...."]).field([(0, 0), (0, 6)]).allocation().tolist()
+    /// [[0, 0, -1, 1, 1, 1, 1]]
+    fn allocation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        rows_array(py, py.detach(|| self.numbers()), self.inner.width() as usize)
+    }
+
+    /// For each vertex the sum of its distances in two fields: the best path from a source of one to a source
+    /// of the other that leads over it. The vertices with little more than the least are a corridor.
+    ///
+    /// Parameters
+    /// ----------
+    /// other : Field
+    ///     Of the same grid and motion.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field, float64; ``inf`` where a vertex is not in both fields.
+    ///
+    /// Raises
+    /// ------
+    /// MismatchError
+    ///     For fields of different grids or motions.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> grid = mediant.Grid.from_rows(["....", "...."])
+    /// >>> corridor = grid.field((0, 0)).corridor(grid.field((0, 3)))
+    /// >>> corridor.round(2).tolist()
+    /// [[3.0, 3.0, 3.0, 3.0], [4.41, 3.83, 3.83, 4.41]]
+    fn corridor<'py>(&self, other: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let Ok(field) = other.cast::<Self>() else { return Err(wrong_type("other", "a Field", other)) };
+        let (py, field) = (other.py(), &field.get().inner);
+        let sums = py.detach(|| self.inner.corridor(field)).map_err(raised)?;
+        rows_array(py, sums, self.inner.width() as usize)
+    }
+
+    /// The distances as a DataArray of xarray, with the coordinates of another one.
+    ///
+    /// Parameters
+    /// ----------
+    /// like : xarray.DataArray
+    ///     The raster that the grid was made of, or another one of the shape of the field.
+    ///
+    /// Returns
+    /// -------
+    /// xarray.DataArray
+    ///     Named ``"distance"``, where cells have costs ``"cost"``; ``inf`` where no path leads.
+    ///
+    /// Raises
+    /// ------
+    /// ArgumentError
+    ///     For a raster of another shape.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import numpy as np
+    /// >>> import mediant
+    /// >>> xarray = __import__("pytest").importorskip("xarray")
+    /// >>> costs = xarray.DataArray(np.ones((2, 3)), dims=("y", "x"), coords={"x": [0, 30, 60], "y": [30, 0]})
+    /// >>> field = mediant.Grid.from_costs(costs).field((0, 0))
+    /// >>> float(field.to_xarray(costs).sel(x=60, y=30))
+    /// 60.0
+    fn to_xarray<'py>(&self, like: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let py = like.py();
+        let name = if self.ground.costs().is_some() { "cost" } else { "distance" };
+        let make = py.import("mediant._rasters")?.getattr("like_raster")?;
+        make.call1((self.distances(py)?, like, name))
+    }
+
     /// The distances as a picture, for notebooks.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let picture = Picture::new(self.map.grid(), self.placement);
+        let picture = Picture::new(self.ground.map().grid(), self.placement);
         png_of(py, picture.field(|at| self.inner.get(at)))
     }
 

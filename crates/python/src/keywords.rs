@@ -5,7 +5,7 @@ use std::time::Instant;
 use mediant::{
     Guarantee, Limits, Motion, Query,
     call::{Call, CallError, Group, Kind, Parameter, Spelling, Value},
-    errors::absent,
+    errors::{NO_COSTS, absent},
     moves::Neighborhood,
 };
 use numpy::PyArray2;
@@ -181,9 +181,13 @@ pub(crate) fn call_error(error: CallError) -> PyErr {
     }
 }
 
+/// The answer to costs of cells that a query is given.
+const COSTS: &str = "costs of cells are those of a grid: Grid(array, costs=…) or Grid.from_costs";
+
 /// The exception for a keyword that a function does not have; `known` are those that it has.
 pub(crate) fn unknown_keyword(function: &str, name: &str, known: &str) -> PyErr {
-    let why = absent(name).map_or(String::new(), |why| format!(" ({why})"));
+    let why = absent(name).map(|why| if why == NO_COSTS { COSTS } else { why });
+    let why = why.map_or(String::new(), |why| format!(" ({why})"));
     PyTypeError::new_err(format!(
         "{function}() got an unexpected keyword argument '{name}'{why}; the keywords are {known}"
     ))

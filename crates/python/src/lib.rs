@@ -5,7 +5,7 @@
 //!   mistake names its argument.
 //! - `grid`, `index`, `field`, `world`, `scenario`: the classes. All are frozen, so threads share them.
 //! - `answer`, `paths`, `spaced`: what `find` and batches answer, and points along a path.
-//! - `arrays`: maps from arrays, and arrays from paths.
+//! - `arrays`, `costs`: maps and costs from arrays, and arrays from paths and costs.
 //! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
 //! - `errors`: the library's errors as exceptions.
 //!
@@ -31,6 +31,7 @@ mod arguments;
 mod arrays;
 mod background;
 mod batch;
+mod costs;
 mod errors;
 mod field;
 mod grid;

@@ -79,7 +79,7 @@ def all_calls():
     dicts = _typed_dicts(tree)
     owners = [("", tree.body), *((c.name, c.body) for c in tree.body if isinstance(c, ast.ClassDef))]
     for owner, body in owners:
-        if owner in dicts:
+        if owner in dicts or owner == "DataArray":
             continue
         for node in body:
             decorators = [ast.unparse(d) for d in getattr(node, "decorator_list", [])]
@@ -98,6 +98,15 @@ def all_calls():
 TAKERS = {"heuristic": "astar", "levels": "subgoal", "memory": "subgoal", "side": "hpa", "landmarks": "landmarks"}
 
 
+class Raster:
+    """A raster that is like one of xarray."""
+
+    def __init__(self, values, coords=None, dims=("y", "x"), name=None, attrs=None):
+        self.values = self.data = values
+        self.shape, self.dtype, self.dims, self.name = values.shape, values.dtype, dims, name
+        self.coords, self.attrs = coords or {}, attrs or {}
+
+
 class Things:
     """The objects that are called, and good values of their parameters."""
 
@@ -107,6 +116,7 @@ class Things:
     def __init__(self, folder):
         self.folder = folder
         self.grid = mediant.Grid.from_rows(self.ROWS)
+        self.costs = mediant.Grid.from_costs(np.arange(1, 55).reshape(6, 9))
         self.index = self.grid.prepare("hpa", side=4)
         self.index.save(folder / "index")
         (folder / "room.scen").write_bytes(self.SCENARIO)
@@ -133,6 +143,8 @@ class Things:
             return getattr(mediant, call.name)
         if call.owner == "Search":  # A step changes it.
             return getattr(self.index.search((0, 0), (5, 8), trace=True), call.name)
+        if call.name == "edit_costs":
+            return self.costs.edit_costs
         return getattr(getattr(mediant, call.owner) if call.is_static else self.owners[call.owner], call.name)
 
     def good_call(self, call, mistaken):
@@ -140,6 +152,8 @@ class Things:
         arguments = {p.name: self.good(call, p) for p in call.parameters if p.is_required}
         if call.name == "__new__" and {"above", "below", "values"} & set(mistaken):
             arguments["array"] = np.arange(12).reshape(3, 4)
+        if call.name == "__new__" and "cell_size" in mistaken:
+            arguments["costs"] = np.full((3, 4), 2.5)
         if call.name in ("for_disc", "disc") and "meters" not in mistaken:
             arguments["radius"] = 1.5  # One of the two is needed.
         engines = [TAKERS[name] for name in mistaken if name in TAKERS]
@@ -177,6 +191,12 @@ class Things:
             "cells": [(0, 0), (1, 2)],
             "shape": (3, 4),
             "world": mediant.World(0.5, shape=(6, 9)),
+            "costs": np.full((3, 4), 2.5),
+            "cell_size": (2, 3),
+            "nodata": -9999,
+            "transform": (2.0, 0.0, 10.0, 0.0, -2.0, 50.0),
+            "other": self.owners["Field"],
+            "like": Raster(np.ones((6, 9))),
         }
         if "PathLike" in parameter.type:
             names = {"load": "index", "save": "saved", "write_trace": "trace"}
@@ -186,6 +206,8 @@ class Things:
             return [(0, 2)]
         if call.name == "edit_cells" and parameter.name == "blocked":
             return [True, False]
+        if call.name == "edit_costs":
+            return {"cells": [(0, 0), (1, 2)], "costs": [3, 4.5]}[parameter.name]
         if call.name == "from_bytes":
             return self.SCENARIO
         if parameter.name in {"free", "blocked"} and parameter.type == "str | None":

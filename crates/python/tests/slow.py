@@ -131,6 +131,10 @@ class Slow:
         around = [(0, 0), (-1, 0), (0, -1), (-1, -1)]
         return [(i, j) for i, j in around if not self.is_blocked(at[0] + i, at[1] + j)]
 
+    def cost(self, start, goal):
+        """The cost of a move: its length."""
+        return math.dist(start, goal)
+
     def graph(self, k):
         """The graph of legal moves, as a matrix of lengths; its nodes are vertices in a quadrant."""
         vertices = [at for at in self.vertices() if self.is_free(at)]
@@ -147,7 +151,7 @@ class Slow:
                     continue
                 for q, p in itertools.product(self.quadrants(start), self.quadrants(goal)):
                     if _within(start, q, goal) and _within(goal, p, start):
-                        data.append(math.dist(start, goal))
+                        data.append(self.cost(start, goal))
                         ends.append((states[start, q], states[goal, p]))
         ends = np.array(ends, dtype=int).reshape(-1, 2)
         size = len(states)
@@ -188,6 +192,43 @@ class Slow:
                 if near and not any(all(_within(at, q, other) for other in near) for q in quadrants):
                     return f"a turn at the closed gap {at}"
         return None
+
+
+class SlowCosts(Slow):
+    """A map with a rule of motion, whose cells have costs, and a height and a width."""
+
+    def __init__(self, blocked, rule, costs, cell_size=(1.0, 1.0)):
+        super().__init__(blocked, rule)
+        self.costs, self.cell_size = np.asarray(costs, dtype=float), cell_size
+
+    def cost(self, start, goal):
+        """The cost of a move: for each cell that it crosses, its length there times the cell's cost."""
+        (row, column), (dr, dc) = start, (goal[0] - start[0], goal[1] - start[1])
+        half = Fraction(1, 2) if self.placement == "center" else Fraction(0)
+        entered, beside, _ = footprint(self.placement, dr, dc)
+        total = 0.0
+        for i, j in entered:
+            spans = [_spans(d, x - half, x + 1 - half) for d, x in ((dr, i), (dc, j))]
+            share = min(span[1] for span in spans) - max(span[0] for span in spans)
+            total += float(share) * self.costs[row + i, column + j]
+        if self.at_corners and (dr == 0) != (dc == 0):
+            for pair in beside:
+                free = [(row + i, column + j) for i, j in pair if not self.is_blocked(row + i, column + j)]
+                total += min(self.costs[cell] for cell in free) / len(beside)
+        return total * math.hypot(dr * self.cell_size[0], dc * self.cell_size[1])
+
+    def path_cost(self, path, k):
+        """The cost of a path over N(k), move by move."""
+        total = 0.0
+        for a, b in zip(path, path[1:]):
+            d = (int(b[0] - a[0]), int(b[1] - a[1]))
+            steps = math.gcd(*d)
+            at = tuple(map(int, a))
+            for _ in range(steps):
+                after = (at[0] + d[0] // steps, at[1] + d[1] // steps)
+                total += self.cost(at, after)
+                at = after
+        return total
 
 
 def _within(at, quadrant, other):

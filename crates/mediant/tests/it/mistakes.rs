@@ -153,7 +153,7 @@ fn codes_keep_their_names() {
 #[test]
 fn what_is_not_there_is_said_by_the_name_that_people_look_for() {
     for (name, part) in [
-        ("weights", "costs of cells are not supported"),
+        ("weights", "a map with costs of cells"),
         ("cost_map", "costs of cells"),
         ("costMap", "costs of cells"),
         ("TERRAIN", "costs of cells"),

@@ -1,7 +1,7 @@
 //! Agents of a size, and paths that keep off walls.
 
 use mediant::{
-    Error, Limits, Vertex,
+    Error, Ground, Limits, Map, Rectangle, Vertex,
     grid::{Clearance, Fit, Outside},
 };
 use numpy::PyArray2;
@@ -83,7 +83,7 @@ impl Grid {
     /// Returns
     /// -------
     /// Grid
-    ///     With more blocked cells.
+    ///     With more blocked cells, and the same costs.
     ///
     /// Raises
     /// ------
@@ -120,8 +120,12 @@ impl Grid {
         let measured = move |clearance: &Clearance, limits: &Limits| {
             Ok(clearance.for_disc_interruptible(cells, &limits.interrupt())?)
         };
-        let grid = self.measured(py, (fit, outside), measured)?;
-        Ok(Self::new(grid.into(), self.shared.world))
+        let map: Map = self.measured(py, (fit, outside), measured)?.into();
+        let Ground::Costs(costs) = self.ground() else { return Ok(Self::new(map, self.shared.world)) };
+        let all = Rectangle::new(0, 0, map.width(), map.height());
+        let is_blocked = |x: u32, y: u32| map.is_blocked((x as i32, y as i32));
+        let costs = py.detach(|| costs.edit(all, is_blocked)).map_err(raised)?;
+        Ok(Self::new(costs, self.shared.world))
     }
 
     /// The grid of an agent that covers side × side cells. Its place is its top left cell.
@@ -148,6 +152,7 @@ impl Grid {
     /// [[False, True, True], [True, True, True]]
     fn for_square(&self, py: Python<'_>, side: &Bound<'_, PyAny>) -> PyResult<Self> {
         let side = u32::try_from(integer("side", side, 1)?).unwrap_or(u32::MAX);
+        self.without_costs("agent of several cells", "give costs that are means over its cells")?;
         let map = self.map().clone();
         let work = move |limits: &Limits| map.within(limits).for_square(side);
         let map = detached(py, self.cells(), Limits::new(), work)?.map_err(raised)?;

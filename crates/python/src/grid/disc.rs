@@ -134,6 +134,7 @@ impl Grid {
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Disc> {
         let motion = Keywords::read("disc", motion, MOTION)?.motion()?;
+        self.without_costs("disc that follows edits", "make the grid anew by for_disc, which keeps costs")?;
         let (map, cells) = (self.map().clone(), self.radius(radius, meters)?);
         let make = move |_: &mediant::Limits| map.disc(cells, motion);
         let inner = detached(py, self.cells(), mediant::Limits::new(), make)?.map_err(raised)?;

@@ -30,7 +30,8 @@ impl Grid {
     /// Raises
     /// ------
     /// MapError
-    ///     For a rectangle that is not wholly on the map.
+    ///     For a rectangle that is not wholly on the map; where cells have costs, for a blocked cell that is
+    ///     freed: `edit_costs` gives it a cost.
     ///
     /// Examples
     /// --------
@@ -41,8 +42,8 @@ impl Grid {
     fn edit(&self, at: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
         match Patch::read(self.map(), at, blocked)? {
             Some(patch) => {
-                let map = self.map().edit(patch.at, |x, y| patch.is_blocked(x, y)).map_err(raised)?;
-                Ok(Self::new(map, self.shared.world))
+                let edited = self.ground().edit(patch.at, |x, y| patch.is_blocked(x, y));
+                Ok(Self::new(edited.map_err(raised)?, self.shared.world))
             }
             None => Ok(self.clone()),
         }
@@ -66,7 +67,7 @@ impl Grid {
     /// Raises
     /// ------
     /// MapError
-    ///     For a cell outside the map.
+    ///     For a cell outside the map, and as `edit`.
     /// ArgumentError
     ///     For another number of values than of cells.
     ///
@@ -79,8 +80,8 @@ impl Grid {
     fn edit_cells(&self, cells: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
         let cells = cells_on("cells", cells, self.map())?;
         let blocked = flags("blocked", blocked, cells.len())?;
-        let map = self.map().edit_cells(cells.into_iter().zip(blocked)).map_err(raised)?;
-        Ok(Self::new(map, self.shared.world))
+        let edited = self.ground().edit_cells(cells.into_iter().zip(blocked)).map_err(raised)?;
+        Ok(Self::new(edited, self.shared.world))
     }
 
     /// This grid with another place in the world, or with none.
@@ -109,7 +110,7 @@ impl Grid {
     #[pyo3(signature = (world), text_signature = "($self, world)")]
     fn with_world(&self, world: &Bound<'_, PyAny>) -> PyResult<Self> {
         // The clone shares the spaces and planners that this grid keeps.
-        Ok(Self::new(self.map().clone(), placed(world, self.map())?))
+        Ok(Self::new(self.ground().clone(), placed(world, self.map())?))
     }
 }
 

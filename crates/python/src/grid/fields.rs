@@ -21,8 +21,8 @@ impl Grid {
     /// sources : array_like of int
     ///     A point (row, column), or several with shape (n, 2).
     /// limit : float, optional
-    ///     The greatest distance, in cells. A vertex at exactly that distance is in the field: the distance
-    ///     of a vertex, as a limit, reaches that vertex.
+    ///     The greatest distance, in cells, or the greatest cost where cells have costs. A vertex at exactly
+    ///     that distance is in the field: the distance of a vertex, as a limit, reaches that vertex.
     /// **motion
     ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
@@ -68,8 +68,8 @@ impl Grid {
     /// Returns
     /// -------
     /// numpy.ndarray
-    ///     Shape (rows, columns), at corners (rows + 1, columns + 1); float64, in cells. ``inf`` where no
-    ///     path leads, or none within the limit.
+    ///     Shape (rows, columns), at corners (rows + 1, columns + 1); float64, in cells, or costs where cells
+    ///     have costs. ``inf`` where no path leads, or none within the limit.
     ///
     /// Raises
     /// ------
@@ -187,6 +187,7 @@ impl Grid {
         let py = sources.py();
         let motion = Keywords::read(function, motion, MOTION)?.motion()?;
         let sources = Points::read("sources", sources)?.into_vec();
+        let told = sources.clone();
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
         let space = self.space(py, motion)?;
@@ -196,6 +197,6 @@ impl Grid {
         };
         let field =
             detached(py, self.cells(), Limits::new(), work)?.map_err(|error| raised_for("source", error))?;
-        Ok(Field::new(field, motion.rules.placement(), self.map().clone()))
+        Ok(Field::new(field, told, motion.rules.placement(), self.ground().clone()))
     }
 }

@@ -3,9 +3,9 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, Limits, Map, PlacementKind, Rules,
+    CornerRule, CostUnits, Costs, Ground, Limits, Map, PlacementKind, Rules,
     files::{Fraction, MapOptions, RosVersion, Tiles, WorldFrame},
-    grid::Identity,
+    grid::{Identity, MapId},
 };
 use mediant_formats::Picture;
 use pyo3::{
@@ -18,21 +18,23 @@ use crate::{
     arguments::{file, flag, integer, number, text, word},
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, png_of},
     background::detached,
+    costs,
     errors::{argument, instead, raised, raised_for, wrong_type},
     keywords::unknown_keyword,
     world::{World, placed},
 };
 
 /// The keywords of `Grid`, for an error.
-const KEYWORDS: &str = "above, below, values, resolution, origin, world";
+const KEYWORDS: &str = "above, below, values, resolution, origin, world, costs, cell_size";
 
 #[pymethods]
 impl Grid {
     #[new]
     #[pyo3(
         signature = (array, *, above = None, below = None, values = None, resolution = None, origin = None,
-            world = None, **others),
-        text_signature = "(array, *, above=None, below=None, values=None, resolution=None, origin=None, world=None)"
+            world = None, costs = None, cell_size = None, **others),
+        text_signature = "(array, *, above=None, below=None, values=None, resolution=None, origin=None, \
+            world=None, costs=None, cell_size=None)"
     )]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn of_array<'py>(
@@ -43,6 +45,8 @@ impl Grid {
         resolution: Option<&Bound<'py, PyAny>>,
         origin: Option<&Bound<'py, PyAny>>,
         world: Option<&Bound<'py, PyAny>>,
+        costs: Option<&Bound<'py, PyAny>>,
+        cell_size: Option<&Bound<'py, PyAny>>,
         others: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
         if let Some((name, _)) = others.and_then(|others| others.iter().next()) {
@@ -59,7 +63,12 @@ impl Grid {
             }
             (Some(resolution), origin) => Some(frame(&map, resolution, origin)?),
         };
-        Ok(Self::new(map, world))
+        let size = costs::cell_size(cell_size)?;
+        match (costs.filter(|costs| !costs.is_none()), cell_size.filter(|size| !size.is_none())) {
+            (Some(costs), _) => Ok(Self::new(costs::costs_of(costs, &map, size)?, world)),
+            (None, Some(_)) => Err(argument("cell_size", "it goes with costs=: lengths are in cells")),
+            (None, None) => Ok(Self::new(map, world)),
+        }
     }
 
     /// Reads a map from a file: a MovingAI ``.map``, a PNG, PGM or PBM picture, or the YAML file of a ROS
@@ -206,11 +215,11 @@ impl Grid {
         self.shared.world.map(|frame| World { frame })
     }
 
-    /// A name of the content: the same for grids with the same cells.
+    /// A name of the content: the same for grids with the same cells, and costs.
     #[getter]
     fn id(&self) -> String {
         let identity =
-            Identity { map: Some(self.map().id()), rules: Rules::Center(CornerRule::Never), k: None };
+            Identity { map: Some(self.map_id()), rules: Rules::Center(CornerRule::Never), k: None };
         // The size and the digest.
         identity.to_bytes()[..24].iter().map(|byte| format!("{byte:02x}")).collect()
     }
@@ -252,16 +261,23 @@ impl Grid {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        self.map().id().hash(&mut hasher);
+        self.map_id().hash(&mut hasher);
         hasher.finish()
     }
 
-    /// By the bits of the cells, row by row in whole bytes, and the place in the world, for pickle.
+    /// By the bits of the cells, row by row in whole bytes, and the place in the world, for pickle; costs by
+    /// four bytes a cell, and what these stand for.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, grid) = (slf.py(), slf.get());
-        let bits = PyBytes::new(py, &py.detach(|| bits_of(grid.map())));
         let (rows, columns) = grid.shape();
         let world = grid.shared.world.map(|frame| (frame.resolution(), frame.origin()));
+        if let Ground::Costs(costs) = grid.ground() {
+            let CostUnits { bounds, step, cell_size } = costs.units();
+            let steps = PyBytes::new(py, &py.detach(|| costs::steps_of(costs)));
+            let state = (steps, rows, columns, world, (bounds, step, cell_size)).into_pyobject(py)?;
+            return Ok((slf.get_type().getattr("_of_costs")?, state));
+        }
+        let bits = PyBytes::new(py, &py.detach(|| bits_of(grid.map())));
         Ok((slf.get_type().getattr("_of_state")?, (bits, rows, columns, world).into_pyobject(py)?))
     }
 
@@ -278,21 +294,60 @@ impl Grid {
             return Err(argument("bits", &format!("expected {expected} bytes")));
         }
         let map = map_of_bits(bits.as_bytes(), rows, columns, &Limits::new()).map_err(raised)?;
-        let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
-        let frame = frame.transpose().map_err(|error| argument("world", &error.to_string()))?;
-        Ok(Self::new(map, frame))
+        Ok(Self::new(map, frame_of(world, rows, columns)?))
     }
 
-    /// The map as a picture, for notebooks.
+    /// The grid with costs of a state that `__reduce__` gave.
+    #[staticmethod]
+    fn _of_costs(
+        steps: &Bound<'_, PyBytes>,
+        rows: u32,
+        columns: u32,
+        world: Option<(f64, [f64; 3])>,
+        units: ((f64, f64), f64, (f64, f64)),
+    ) -> PyResult<Self> {
+        let (bounds, step, cell_size) = units;
+        let (bytes, units) = (steps.as_bytes(), CostUnits { bounds, step, cell_size });
+        let expected = 4 * u64::from(rows) * u64::from(columns);
+        if bytes.len() as u64 != expected {
+            return Err(argument("steps", &format!("expected {expected} bytes")));
+        }
+        let read = || costs::costs_of_steps(bytes, (rows, columns), units, &Limits::new());
+        let costs = steps.py().detach(read).map_err(costs::raised_for_costs)?;
+        Ok(Self::new(costs, frame_of(world, rows, columns)?))
+    }
+
+    /// The map as a picture, for notebooks; costs by their colors.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        png_of(py, Picture::new(self.map().grid(), PlacementKind::Center))
+        let picture = Picture::new(self.map().grid(), PlacementKind::Center);
+        match self.ground() {
+            Ground::Map(_) => png_of(py, picture),
+            Ground::Costs(costs) => png_of(py, picture.field(|at| costs.cost(at))),
+        }
     }
 
-    fn __repr__(&self) -> String {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let map = self.map();
-        let blocked = self.cells() - map.grid().free_cells();
-        format!("<mediant.Grid of {} × {} cells, {blocked} blocked>", map.height(), map.width())
+        let (height, width, blocked) = (map.height(), map.width(), self.cells() - map.grid().free_cells());
+        let of_costs = match self.ground() {
+            Ground::Map(_) => String::new(),
+            Ground::Costs(costs) => costs::in_words(py, costs)?,
+        };
+        Ok(format!("<mediant.Grid of {height} × {width} cells, {blocked} blocked{of_costs}>"))
     }
+}
+
+impl Grid {
+    /// The identity of the map, or of its costs.
+    fn map_id(&self) -> MapId {
+        self.ground().costs().map_or_else(|| self.map().id(), Costs::id)
+    }
+}
+
+/// The place in the world of a state.
+fn frame_of(world: Option<(f64, [f64; 3])>, rows: u32, columns: u32) -> PyResult<Option<WorldFrame>> {
+    let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
+    frame.transpose().map_err(|error| argument("world", &error.to_string()))
 }
 
 /// The characters of free and of blocked cells.

@@ -2,6 +2,7 @@
 
 mod agents;
 mod batches;
+mod costs;
 mod disc;
 mod edits;
 mod fields;
@@ -12,7 +13,7 @@ mod queries;
 
 use std::sync::Arc;
 
-use mediant::{Error, Limits, Map, Motion, Planners, Space, files::WorldFrame};
+use mediant::{Error, Ground, Limits, Map, Motion, Planners, Space, errors::SetupError, files::WorldFrame};
 use pyo3::prelude::*;
 
 pub(crate) use self::{disc::Disc, edits::cells_on, occupancy::place};
@@ -22,7 +23,9 @@ use crate::{
     keywords::{Keywords, call_error},
 };
 
-/// A map: which cells are blocked. Cell (row, column) is counted from the top left corner.
+/// A map: which cells are blocked, and perhaps the costs of the others.
+///
+/// Cell (row, column) is counted from the top left corner.
 ///
 /// A grid never changes: `edit` makes another one. All threads can share it.
 ///
@@ -46,6 +49,13 @@ use crate::{
 ///     ``array[::-1]``; for those of an occupancy message there is `from_occupancy`.
 /// world : World, optional
 ///     The place in the world of a map of this shape, in place of ``resolution`` and ``origin``.
+/// costs : array_like, optional
+///     The cost of each free cell, of the shape of the array: positive numbers of any type, whatever is in
+///     blocked cells. A move costs its length in each cell that it crosses times the cell's cost. It is read
+///     where it is, and not kept. `from_costs` takes costs alone, which say by themselves what is blocked.
+/// cell_size : float or tuple of float, optional
+///     With ``costs``: the side of a cell, or its height and its width, in the unit of length of which costs
+///     are one; 1 by default.
 ///
 /// Attributes
 /// ----------
@@ -54,12 +64,20 @@ use crate::{
 /// world : World or None
 ///     Where the map is in the world, if that was said.
 /// id : str
-///     A name of the content: the same for grids with the same cells.
+///     A name of the content: the same for grids with the same cells, and costs.
+/// costs : numpy.ndarray or None
+///     The costs of the cells, shape (rows, columns), float64: ``nan`` in blocked cells; None if cells have
+///     none. A new array each time. Costs that are not integers are rounded by 2**-32 of the greatest.
+/// has_costs : bool
+///     Whether cells have costs.
+/// cell_size : tuple of float
+///     The height and the width of a cell; (1.0, 1.0) if nothing else was said.
 ///
 /// Raises
 /// ------
 /// MapError
-///     For a side of 0, or of more than 32768 cells.
+///     For a side of 0, or of more than 32768 cells; for a cost of a free cell that is no positive number, and
+///     for costs that are more than 65536 times as great as others.
 /// ArgumentError
 ///     For an array of another number of dimensions, or with values that are no number; and for a resolution
 ///     or an origin that places no map, or the world of a map of another shape.
@@ -82,17 +100,29 @@ pub(crate) struct Grid {
 }
 
 struct Shared {
-    map: Map,
+    ground: Ground,
     world: Option<WorldFrame>,
 }
 
 impl Grid {
-    pub(crate) fn new(map: Map, world: Option<WorldFrame>) -> Self {
-        Self { shared: Arc::new(Shared { map, world }) }
+    pub(crate) fn new(ground: impl Into<Ground>, world: Option<WorldFrame>) -> Self {
+        Self { shared: Arc::new(Shared { ground: ground.into(), world }) }
+    }
+
+    pub(crate) fn ground(&self) -> &Ground {
+        &self.shared.ground
     }
 
     pub(crate) fn map(&self) -> &Map {
-        &self.shared.map
+        self.ground().map()
+    }
+
+    /// The error for something that there is not on costs of cells, if these have costs.
+    fn without_costs(&self, what: &'static str, instead: &'static str) -> PyResult<()> {
+        match self.ground() {
+            Ground::Map(_) => Ok(()),
+            Ground::Costs(_) => Err(raised(Error::from(SetupError::WithCosts { what, instead }))),
+        }
     }
 
     /// The number of cells.
@@ -106,11 +136,11 @@ impl Grid {
     }
 
     fn space_within(&self, py: Python<'_>, motion: Motion, limits: Limits) -> PyResult<Result<Space, Error>> {
-        if let Some(space) = self.map().kept_space(motion) {
+        if let Some(space) = self.ground().kept_space(motion) {
             return Ok(Ok(space));
         }
-        let map = self.map().clone();
-        detached(py, self.cells(), limits, move |limits| map.keep_space(motion, limits))
+        let ground = self.ground().clone();
+        detached(py, self.cells(), limits, move |limits| ground.keep_space(motion, limits))
     }
 
     /// The planners of a call, kept for the next one. Within, [`Error::Stopped`] by its time limit.
@@ -125,12 +155,12 @@ impl Grid {
         keywords: &Keywords,
         limits: Limits,
     ) -> PyResult<Result<Arc<Planners>, Error>> {
-        let setup = self.map().setup(&keywords.call).map_err(call_error)?;
-        if let Some(planners) = self.map().kept_planners(&setup) {
+        let setup = self.ground().setup(&keywords.call).map_err(call_error)?;
+        if let Some(planners) = self.ground().kept_planners(&setup) {
             return Ok(Ok(planners));
         }
-        let map = self.map().clone();
-        let prepare = move |limits: &Limits| map.keep_planners(&setup, limits);
+        let ground = self.ground().clone();
+        let prepare = move |limits: &Limits| ground.keep_planners(&setup, limits);
         let planners = if setup.index_version().is_err() {
             detached(py, self.cells(), limits, prepare)?
         } else {
@@ -146,6 +176,6 @@ impl Grid {
 
 impl PartialEq for Grid {
     fn eq(&self, other: &Self) -> bool {
-        self.map() == other.map() && self.shared.world == other.shared.world
+        self.ground() == other.ground() && self.shared.world == other.shared.world
     }
 }

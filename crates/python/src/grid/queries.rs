@@ -26,7 +26,7 @@ use crate::{
 
 #[pymethods]
 impl Grid {
-    /// A shortest path.
+    /// A shortest path; where cells have costs, a cheapest one.
     ///
     /// The first call with some motion prepares a little; the grid keeps it for the next ones. For many paths
     /// `prepare` an index.
@@ -98,7 +98,8 @@ impl Grid {
     /// -------
     /// float
     ///     In cells; ``inf`` if there is no path. At a number k it is the same number as in `distances`, a
-    ///     `Field`, and tables, whatever the engine, if the engine's paths are shortest.
+    ///     `Field`, and tables, whatever the engine, if the engine's paths are shortest. Where cells have
+    ///     costs it is the least cost.
     ///
     /// Raises
     /// ------
@@ -166,8 +167,8 @@ impl Grid {
     /// snap : bool
     ///     Moves a start or goal that is blocked to the nearest free vertex.
     /// max_cost : float, optional
-    ///     The greatest length of a path, in cells; a path that is exactly as long is within it. An engine
-    ///     that guarantees nothing may miss a path that is nearly as long.
+    ///     The greatest length of a path, in cells, or its cost where cells have costs; a path that is exactly
+    ///     as long is within it. An engine that guarantees nothing may miss a path that is nearly as long.
     /// max_expansions : int, optional
     ///     The greatest number of expansions of the search.
     /// timeout : float, optional
@@ -255,7 +256,7 @@ impl Grid {
     )]
     fn setup(&self, how: Option<&Bound<'_, PyDict>>) -> PyResult<String> {
         let keywords = Keywords::read("setup", how, ALL)?;
-        Ok(self.map().setup(&keywords.call).map_err(call_error)?.to_string())
+        Ok(self.ground().setup(&keywords.call).map_err(call_error)?.to_string())
     }
 
     /// Prepares an index for many paths.
@@ -374,8 +375,8 @@ impl Grid {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Index> {
         let (path, keywords) = (file("path", path)?, Keywords::read("load", options, OPTIONS)?);
-        let map = self.map().clone();
-        let work = move |limits: &Limits| map.within(limits).load(path);
+        let ground = self.ground().clone();
+        let work = move |limits: &Limits| ground.load(path, limits);
         let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
         self.with_options(index, &keywords)
     }
@@ -414,8 +415,8 @@ impl Grid {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Index> {
         let keywords = Keywords::read("index_from_bytes", options, OPTIONS)?;
-        let (map, data) = (self.map().clone(), bytes("data", data)?);
-        let work = move |limits: &Limits| map.within(limits).index_from_bytes(data);
+        let (ground, data) = (self.ground().clone(), bytes("data", data)?);
+        let work = move |limits: &Limits| ground.index_from_bytes(data, limits);
         let index = detached(py, u64::MAX, Limits::new(), work)?.map_err(raised)?;
         self.with_options(index, &keywords)
     }

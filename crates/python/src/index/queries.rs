@@ -92,9 +92,9 @@ impl Asked<'_, '_> {
             return Ok(distance.map_err(raised)?.unwrap_or(f64::INFINITY));
         }
         let setup = index.setup();
-        let answer = self.answered(&ends, false)?.0;
+        let (answer, searched) = self.answered(&ends, false)?;
         let answer = answer::whole(py, answer, PathPoints::Waypoints, setup.rules())?;
-        Ok(answer.distance(setup.guarantee()))
+        Ok(answer.distance(searched.guarantee))
     }
 
     /// `find`.

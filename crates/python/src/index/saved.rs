@@ -83,14 +83,18 @@ impl Index {
     fn repair(&self, py: Python<'_>, grid: &Bound<'_, PyAny>) -> PyResult<Self> {
         let Ok(changed) = grid.cast::<Grid>() else { return Err(wrong_type("grid", "a Grid", grid)) };
         let (changed, planners) = (changed.get().clone(), Arc::clone(&self.planners));
-        let map = changed.map().clone();
+        let ground = changed.ground().clone();
         let work = move |limits: &Limits| {
             let index = planners.index();
-            let mut change = Change::to(index.space(), &map);
+            let mut change = Change::to(index.space(), ground.map());
             let size = |map: &Map| (map.width(), map.height());
-            if change.cells().len() > MOST_TILES || size(&map) != size(index.space().map()) {
-                // Following the change would take longer than a second look for Ctrl-C may.
-                let space = map.within(limits).space(index.setup().motion)?;
+            if change.cells().len() > MOST_TILES
+                || size(ground.map()) != size(index.space().map())
+                || ground.costs().is_some()
+            {
+                // Following the change would take longer than a second look for Ctrl-C may. Costs keep a
+                // space that follows them.
+                let space = ground.keep_space(index.setup().motion, limits)?;
                 change = Change::between(index.space(), &space)?;
             }
             let repaired = in_pool(None, || index.within(limits).repair(&change))?;
@@ -205,15 +209,15 @@ impl Index {
     ) -> PyResult<Self> {
         let setup: Setup = setup.parse().map_err(|error: mediant::errors::TextError| raised(error))?;
         let grid = grid.get().clone();
-        let map = grid.map().clone();
+        let ground = grid.ground().clone();
         let work = move |limits: &Limits| match bytes {
             None => {
-                let space = map.within(limits).space(setup.motion)?;
+                let space = ground.keep_space(setup.motion, limits)?;
                 let index = space.within(limits).prepare(setup.engine)?;
                 Ok::<_, mediant::Error>(index.with_smoothing(setup.smoothing))
             }
             Some(bytes) => {
-                let index = map.within(limits).index_from_bytes(bytes)?;
+                let index = ground.index_from_bytes(bytes, limits)?;
                 Ok(index.with_options(setup.engine)?.with_smoothing(setup.smoothing))
             }
         };
