@@ -1,9 +1,9 @@
 """Calls of other libraries, answered by the engines of this one.
 
-Each function has the name, the parameters, the result and the errors of the one that it stands in for, on
-arrays in which all passable cells cost the same. Where several paths are equally good, it may return another
-of them: costs are the same, cells need not be. A call that cannot be answered the same is an error, never
-another answer: `mediant.OptionError`.
+Each has the name, the parameters, the result and the errors of the one that it stands in for. Where several
+paths are equally good, it may return another of them: costs are the same but for rounding (the last of some
+ten digits), cells need not be. A call that cannot be answered the same is an error, never another answer:
+`mediant.OptionError`.
 
 Every call makes a new grid of its array, as the originals do. For many paths on one map there is less to do:
 ``mediant.Grid(blocked).prepare(corners="always")`` has an index that answers much faster.
@@ -20,14 +20,18 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._mediant import Grid
-from .errors import OptionError
+from .errors import MapError, OptionError
 
 if TYPE_CHECKING:
     from ._mediant import Engine
 
-__all__ = ["Heuristic", "astar_path", "route_through_array"]
+__all__ = ["Heuristic", "MCP_Geometric", "astar_path", "route_through_array"]
 
 _NO_ROUTE = "no minimum-cost path was found to the specified end point"
+_ZERO = (
+    "some passable cells cost 0: Mediant has positive costs alone, since a path over cells that cost nothing "
+    "can be of any length. Give them a cost that is small beside the others"
+)
 
 
 def route_through_array(
@@ -42,14 +46,15 @@ def route_through_array(
     Parameters
     ----------
     array : array_like of shape (rows, columns)
-        The costs. Cells that are infinite or negative are impassable. All others must cost the same.
+        The costs. Cells that are infinite or negative are impassable. All others must be positive, or cost
+        the same; with ``fully_connected`` and without ``geometric`` they must cost the same.
     start, end : iterable of int
         (row, column). Negative numbers count from the end, as indexes of arrays do.
     fully_connected : bool
         Whether paths may take diagonal steps. They pass between two impassable cells that touch at a corner.
     geometric : bool
-        Whether the cost is the length of the path times the cost of a cell, a diagonal step being √2 long. If
-        not, it is the number of cells, both ends included, times the cost of a cell.
+        Whether a step costs its length, √2 of a diagonal one, times the mean of the costs of its two cells.
+        If not, the path costs the sum of its cells, both ends included.
 
     Returns
     -------
@@ -67,7 +72,8 @@ def route_through_array(
     TypeError
         The array is not of numbers that a float64 can hold.
     mediant.OptionError
-        The array has not two axes, or its passable cells have several costs, of which the start's may be one.
+        The array has not two axes; or its passable cells have several costs, of which one is zero, or no
+        number, or more than 65536 times another; or without `geometric` diagonal steps are taken over them.
 
     Examples
     --------
@@ -122,15 +128,13 @@ def _route(
         return [], math.inf
     same = costs == each
     others = costs[~same]
+    if costs[first] < 0:
+        raise _negative_start(costs[first])
     if not np.all((others < 0) | (others == math.inf)):
-        other = others[~((others < 0) | (others == math.inf))][0]
-        raise _not_uniform(each, other, "infinite or negative ones")
-    if not same[first]:
-        raise OptionError(
-            f"the start has the negative cost {costs[first]}, which only skimage takes. Give it the cost "
-            f"{each} of the other cells",
-            "not-supported",
-        )
+        if k != 2 and not geometric:
+            other = others[~((others < 0) | (others == math.inf))][0]
+            raise _not_uniform(each, other, "infinite or negative ones")
+        return _route_over_costs(costs, first, last, k, geometric)
     # The fewest cells are not always those of a shortest path, so that they need an engine of their own. For
     # one path on a new grid, canonical A* is fastest.
     engine: Engine = "canonical" if geometric or k == 2 else "wavefront"
@@ -144,6 +148,196 @@ def _route(
     # `answer.distance` is rounded as searches do, to a multiple of 2**-32 for each move.
     diagonal = int(np.all(np.diff(answer.path, axis=0) != 0, axis=1).sum())
     return cells, mean * (len(cells) - 1 - diagonal + math.sqrt(2) * diagonal)
+
+
+def _route_over_costs(
+    costs: NDArray[Any], first: tuple[int, int], last: tuple[int, int], k: int, geometric: bool
+) -> tuple[list[tuple[int, int]], float]:
+    """Do the same where cells have several costs."""
+    path = _grid_of(costs, 1.0).path(first, last, k=k, corners="always", points="vertices")
+    if path is None:
+        return [], math.inf
+    each = costs[path[:, 0], path[:, 1]].astype(np.float64)
+    cells = list(zip(path[:, 0].tolist(), path[:, 1].tolist()))
+    if not geometric:  # Of straight steps, the means add up to the cells between the ends, and half of those.
+        return cells, float(each.sum())
+    lengths = np.sqrt(np.abs(np.diff(path, axis=0)).sum(axis=1))
+    return cells, float((lengths * (each[1:] + each[:-1])).sum() / 2)
+
+
+def _grid_of(costs: NDArray[Any], cell_size: Any) -> Grid:
+    """Make the grid of costs of which negative and infinite ones are impassable."""
+    if costs.dtype.kind == "f" and np.isnan(costs).any():
+        raise OptionError("a cost is not a number: mark what is impassable by infinity", "not-uniform")
+    blocked = (costs < 0) | (costs == math.inf)
+    if not np.all(costs[~blocked]):
+        raise OptionError(_ZERO, "not-supported")
+    try:
+        return Grid(blocked, costs=costs.astype(np.float64, copy=False), cell_size=cell_size)
+    except MapError as error:
+        raise OptionError(str(error), "not-supported") from error
+
+
+def _negative_start(cost: object) -> OptionError:
+    """Make the error for a start that may only be left."""
+    return OptionError(
+        f"the start has the negative cost {cost}, which only skimage takes. Give it that of the cells beside "
+        "it",
+        "not-supported",
+    )
+
+
+class MCP_Geometric:
+    """Cheapest paths from one or several cells to all others, as `skimage.graph.MCP_Geometric` finds them.
+
+    For a search with more directions, and without a class, there is `mediant.Grid.field`.
+
+    Parameters
+    ----------
+    costs : array_like of shape (rows, columns)
+        The costs. Cells that are infinite or negative are impassable. All others must be positive.
+    offsets : None
+        Other moves than those of `fully_connected` are refused.
+    fully_connected : bool
+        Whether paths may take diagonal steps. They pass between two impassable cells that touch at a corner.
+    sampling : tuple of float, optional
+        The height and the width of a cell.
+
+    Attributes
+    ----------
+    offsets : numpy.ndarray
+        The moves, shape (8, 2) or (4, 2), to which the numbers of a traceback array refer.
+
+    Raises
+    ------
+    mediant.OptionError
+        The array has not two axes; a cost is zero, or no number, or more than 65536 times another; or there
+        are offsets.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mediant.compat import MCP_Geometric
+    >>> mcp = MCP_Geometric(np.array([[1.0, 9.0, 1.0], [1.0, 1.0, 1.0]]))
+    >>> costs, traceback = mcp.find_costs([(0, 0)])
+    >>> costs.round(2).tolist()
+    [[0.0, 5.0, 2.83], [1.0, 1.41, 2.41]]
+    >>> mcp.traceback((0, 2)), mcp.offsets[traceback[0, 2]].tolist()
+    ([(0, 0), (1, 1), (0, 2)], [-1, 1])
+    """
+
+    def __init__(
+        self,
+        costs: ArrayLike,
+        offsets: None = None,
+        fully_connected: bool = True,
+        sampling: Sequence[float] | None = None,
+    ) -> None:
+        array = np.asarray(costs)
+        if not np.can_cast(array.dtype, np.float64):
+            raise TypeError(f"cannot cast costs array to {np.float64}")
+        if array.ndim != 2:
+            raise OptionError(f"the array must have 2 axes, it has {array.ndim}", "not-supported")
+        if offsets is not None:
+            raise OptionError(
+                "offsets other than those of fully_connected are not there: for more directions use "
+                "mediant.Grid.field with k=4 and more",
+                "not-supported",
+            )
+        steps = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if (row, column) != (0, 0)]
+        self.offsets = np.array([step for step in steps if fully_connected or 0 in step])
+        self._costs, self._k = array, 3 if fully_connected else 2
+        self._grid = _grid_of(array, None if sampling is None else tuple(sampling))
+        self._found: tuple[NDArray[np.float64], NDArray[np.int16]] | None = None
+
+    def find_costs(
+        self,
+        starts: Iterable[Any],
+        ends: Iterable[Any] | None = None,
+        find_all_ends: bool = True,
+    ) -> tuple[NDArray[np.float64], NDArray[np.int16]]:
+        """Find the costs of all cells.
+
+        Parameters
+        ----------
+        starts : iterable of tuple of int
+            (row, column) of each start. Negative numbers count from the end.
+        ends : iterable of tuple of int, optional
+            Cells that cost more than all of these are left out.
+        find_all_ends : bool
+            If not, cells that cost more than the cheapest of the ends are left out.
+
+        Returns
+        -------
+        cumulative_costs : numpy.ndarray
+            The least cost of each cell, float64; infinite where no path leads, or where it was left out.
+        traceback : numpy.ndarray
+            The number in `offsets` of the last step to each cell, int16; -1 at starts, -2 where there is
+            none.
+
+        Raises
+        ------
+        ValueError
+            A cell lies outside the array, or no start is passable.
+        mediant.OptionError
+            A start has a negative cost.
+        """
+        shape = self._costs.shape
+        cells = [_cell(tuple(start), shape, "start") for start in starts]
+        lasts = [_cell(tuple(end), shape, "end") for end in ends or ()]
+        for cell in cells:
+            if self._costs[cell] < 0:
+                raise _negative_start(self._costs[cell])
+        cells = [cell for cell in cells if self._costs[cell] != math.inf]
+        if not cells:
+            raise ValueError("no valid start points to start frontpropagation")
+        field = self._grid.field(cells, k=self._k, corners="always")
+        costs = field.distances()
+        from_last = np.moveaxis(np.indices(shape), 0, -1) - field.next() + 1
+        numbers = np.full((3, 3), -1, dtype=np.int16)
+        numbers[tuple((self.offsets + 1).T)] = np.arange(len(self.offsets))
+        is_known = np.isfinite(costs)
+        if lasts:
+            reached = [costs[last] for last in lasts]
+            is_known &= costs <= (max if find_all_ends else min)(reached)
+        costs[~is_known] = math.inf
+        traceback = np.full(shape, -2, dtype=np.int16)
+        traceback[is_known] = numbers[tuple(from_last[is_known].T)]
+        self._found = costs, traceback
+        return costs.copy(), traceback.copy()
+
+    def traceback(self, end: Iterable[Any]) -> list[tuple[int, ...]]:
+        """Give the cells of the cheapest path to a cell, from the start that is nearest to it.
+
+        Parameters
+        ----------
+        end : iterable of int
+            (row, column).
+
+        Returns
+        -------
+        list of tuple
+            (row, column) of every cell.
+
+        Raises
+        ------
+        ValueError
+            The cell lies outside the array, or no path leads to it.
+        Exception
+            Nothing was found yet by `find_costs`.
+        """
+        if self._found is None:
+            raise Exception("find_costs() must be run before traceback()")
+        costs, numbers = self._found
+        at = _cell(tuple(end), costs.shape, "end")
+        if costs[at] == math.inf:
+            raise ValueError(_NO_ROUTE)
+        cells = [at]
+        while numbers[at] >= 0:
+            row, column = self.offsets[numbers[at]].tolist()
+            at = (at[0] - row, at[1] - column)
+            cells.append(at)
+        return cells[::-1]
 
 
 class Heuristic(IntEnum):
@@ -253,6 +447,7 @@ def _not_uniform(one: object, other: object, blocked: str) -> OptionError:
     """Make the error for an array with several costs."""
     return OptionError(
         f"the passable cells must all cost the same, but some cost {one} and some {other}: Mediant has no "
-        f"cells of several costs, the original has. Impassable are {blocked} only",
+        f"search for the least sum of cells with diagonal steps, the original has. Impassable are {blocked} "
+        "only",
         "not-uniform",
     )
