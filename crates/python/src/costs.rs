@@ -59,15 +59,16 @@ pub(crate) fn costs_of(value: &Bound<'_, PyAny>, map: &Map, (height, width): (f6
         watched(array.py(), |limits| map.costs_by((width, height), limits, cost))
     };
     macro_rules! of_types {
-        ($($type:ty),*) => {$(
+        ($number:expr; $($type:ty),*) => {$(
             if let Ok(numbers) = array.extract::<PyReadonlyArray2<'_, $type>>() {
                 let numbers: ArrayView2<'_, $type> = numbers.as_array();
-                return of(&|x, y| numbers[[y as usize, x as usize]] as f64);
+                return of(&|x, y| $number(numbers[[y as usize, x as usize]]));
             }
         )*};
     }
-    of_types!(f64, f32, u8, u16, i16, i32, i64, u32, i8, u64);
-    // Numbers of other machines, and of 16 or 128 bits.
+    of_types!(f64::from; f32, u8, u16, i16, i32, u32, i8);
+    of_types!(|number| number as f64; i64, u64);
+    // Numbers of 64 bits are read where they are; of other machines, and of 16 or 128 bits, they are copied.
     let wide = array.call_method1("astype", ("float64",))?;
     let numbers = wide.extract::<PyReadonlyArray2<'_, f64>>()?;
     let numbers = numbers.as_array();

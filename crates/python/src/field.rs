@@ -246,7 +246,8 @@ impl Field {
     /// -------
     /// numpy.ndarray
     ///     The shape of the field, int32: the index of the source in the list that the field was made of; -1
-    ///     where no path leads. Of several that are equally near it is one; where cells have costs, the first.
+    ///     where no path leads. Of several that are equally near it is one of them; where cells have costs,
+    ///     the first.
     ///
     /// Examples
     /// --------
@@ -308,13 +309,10 @@ impl Field {
     ///
     /// Examples
     /// --------
-    /// >>> import numpy as np
     /// >>> import mediant
-    /// >>> xarray = __import__("pytest").importorskip("xarray")
-    /// >>> costs = xarray.DataArray(np.ones((2, 3)), dims=("y", "x"), coords={"x": [0, 30, 60], "y": [30, 0]})
-    /// >>> field = mediant.Grid.from_costs(costs).field((0, 0))
-    /// >>> float(field.to_xarray(costs).sel(x=60, y=30))
-    /// 60.0
+    /// >>> costs = xarray.open_dataarray("friction.nc")  # doctest: +SKIP
+    /// >>> field = mediant.Grid.from_costs(costs).field((0, 0))  # doctest: +SKIP
+    /// >>> field.to_xarray(costs).plot()  # doctest: +SKIP
     fn to_xarray<'py>(&self, like: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let py = like.py();
         let name = if self.ground.costs().is_some() { "cost" } else { "distance" };

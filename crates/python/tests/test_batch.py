@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import sys
 
 import mediant
@@ -52,6 +53,62 @@ def test_rows_are_answered_as_one_by_one(k, threads):
         "invalid",
     }  # All kinds took part.
     assert answer.select(table.column_names).equals(table)
+
+
+def a_raster(seed):
+    """A grid with costs, of which some cells are blocked."""
+    random = np.random.default_rng([SEED, seed])
+    costs = random.uniform(1, 9, size=(14, 19))
+    return mediant.Grid(random.random(costs.shape) < 0.2, costs=costs, cell_size=(3, 2))
+
+
+def test_rows_on_costs_are_answered_as_one_by_one():
+    maps = {**MAPS, next(iter(MAPS)): a_raster(1)}
+    table = a_table(200)
+    answer = batch.solve(table, maps, k=4, engine="astar", paths=True)
+    assert as_rows(answer) == one_by_one(table, maps, k=4, engine="astar"), f"seed {SEED}"
+    # Those of one id are made once, wherever they came from.
+    raster = a_raster(1)
+    batch.solve(table.drop(["map"]), raster, k=4, engine="astar")
+    assert batch.cache.info()["made"] == len(MAPS)
+    batch.cache.clear()
+    for _ in range(2):
+        again = pickle.loads(pickle.dumps(batch.Solver(maps, k=4, engine="astar", paths=True)))
+        assert again(table).equals(answer)
+    assert batch.cache.info()["made"] == len(MAPS)
+    assert batch.cache.info()["bytes"] >= 4 * raster.shape[0] * raster.shape[1]
+    with pytest.raises(mediant.OptionError, match="costs"):
+        batch.Solver(raster, engine="jps")
+    with pytest.raises(mediant.OptionError, match="costs"):
+        batch.Solver(maps, k=9)
+
+
+def test_fields_of_many_sources(tmp_path):
+    raster, plain = a_raster(2), mediant.Grid.from_rows(["....", ".##."])
+    free = [tuple(map(int, at)) for at in np.argwhere(~raster.to_numpy())]
+    sources = {"a": free[0], "b": free[5:9], 3: [free[-1]]}
+    found = batch.fields(sources, raster, k=4, limit=40)
+    for name, points in sources.items():
+        assert np.array_equal(found[name], raster.distances(points, k=4, limit=40))
+    written = batch.fields(sources, raster, k=4, limit=40, to=tmp_path / "fields")
+    assert set(written) == set(found)
+    assert all(np.array_equal(np.load(written[name]), found[name]) for name in sources)
+    assert sorted(file.name for file in (tmp_path / "fields").iterdir()) == ["3.npy", "a.npy", "b.npy"]
+    tiles = {"raster": raster, "plain": plain}
+    found = batch.fields({1: ("raster", free[0]), 2: ("plain", (0, 0))}, tiles, threads=1)
+    assert found[2].tolist() == plain.distances((0, 0)).tolist() and found[1].shape == raster.shape
+    for wrong, maps in [
+        ({"a": ("other", (0, 0))}, tiles),
+        ({"a": 7}, tiles),
+        ({"a": (0.5, 1)}, raster),
+        ({"a": [1, 2, 3]}, raster),
+    ]:
+        with pytest.raises(batch.TableError, match="'a'"):
+            batch.fields(wrong, maps)
+    with pytest.raises(batch.TableError, match="name"):
+        batch.fields({"../a": (0, 0)}, plain, to=tmp_path)
+    with pytest.raises(mediant.QueryError):
+        batch.fields({"a": (99, 0)}, plain)
 
 
 class Spy:

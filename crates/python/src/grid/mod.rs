@@ -76,8 +76,8 @@ use crate::{
 /// Raises
 /// ------
 /// MapError
-///     For a side of 0, or of more than 32768 cells; for a cost of a free cell that is no positive number, and
-///     for costs that are more than 65536 times as great as others.
+///     For a side of 0, or of more than 32768 cells; for a cost of a free cell that is no positive number,
+///     and for costs that are more than 65536 times as great as others.
 /// ArgumentError
 ///     For an array of another number of dimensions, or with values that are no number; and for a resolution
 ///     or an origin that places no map, or the world of a map of another shape.

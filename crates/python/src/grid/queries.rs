@@ -167,8 +167,9 @@ impl Grid {
     /// snap : bool
     ///     Moves a start or goal that is blocked to the nearest free vertex.
     /// max_cost : float, optional
-    ///     The greatest length of a path, in cells, or its cost where cells have costs; a path that is exactly
-    ///     as long is within it. An engine that guarantees nothing may miss a path that is nearly as long.
+    ///     The greatest length of a path, in cells, or its cost where cells have costs; a path that is
+    ///     exactly as long is within it. An engine that guarantees nothing may miss a path that is nearly as
+    ///     long.
     /// max_expansions : int, optional
     ///     The greatest number of expansions of the search.
     /// timeout : float, optional

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 import mediant
+import numpy as np
 import pandas
 import pyarrow as pa
 import pytest
@@ -89,3 +90,19 @@ def test_errors_of_workers(client, maps):
     with pytest.raises(mediant.QueryError, match=r"row 7 \(map 'rooms-8'\): ") as error:
         batch.dask(one_bad_row(), maps, partition_rows=2, invalid="raise", client=client)
     assert error.value.code == "start-outside"
+
+
+def test_fields_of_rasters(client, tmp_path):
+    """Costs are the same by workers, in memory and in files; each worker opens a raster once."""
+    random = np.random.default_rng(7)
+    rasters = {
+        key: mediant.Grid.from_costs(random.uniform(1, 9, size=(60, 90)), cell_size=(3, 2)) for key in "ab"
+    }
+    sources = {f"{key}-{n}": (key, random.integers(60, size=(3, 2))) for key in rasters for n in range(6)}
+    client.run(lambda: batch.cache.clear())
+    found = batch.fields(sources, rasters, k=4, client=client)
+    written = batch.fields(sources, rasters, k=4, client=client, to=tmp_path)
+    for name, (key, points) in sources.items():
+        wanted = rasters[key].distances(points, k=4)
+        assert np.array_equal(found[name], wanted) and np.array_equal(np.load(written[name]), wanted)
+    assert all(info["made"] <= len(rasters) for info in caches(client).values())

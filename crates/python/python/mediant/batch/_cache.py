@@ -129,9 +129,9 @@ class Cache:
 
 
 def _size(index: Index) -> int:
-    """Give the bytes of an index and of its map, a bit for a cell."""
+    """Give the bytes of an index and of its map: a bit for a cell, and four bytes for its cost."""
     rows, columns = index.grid.shape
-    return index.memory_bytes + rows * columns // 8
+    return index.memory_bytes + rows * columns // 8 + 4 * rows * columns * index.grid.has_costs
 
 
 def _is_ready(future: Future[Index]) -> bool:

@@ -34,9 +34,9 @@ class Solver:
     Parameters
     ----------
     maps : Mapping, or one map
-        By the keys in the column ``map``: `mediant.Grid`, a 2-D array of bool, the path of a map file,
-        `mediant.Index`, or a pair of a map and the path of the file of its index. One map alone is for all
-        rows; a column ``map`` is not read then.
+        By the keys in the column ``map``: `mediant.Grid`, with costs or without, a 2-D array of bool, the
+        path of a map file, `mediant.Index`, or a pair of a map and the path of the file of its index. One map
+        alone is for all rows; a column ``map`` is not read then.
     k, engine, placement, corners, gap
         As for `Grid.prepare`. It chooses those that are None; k is 3 then. An index that is given has its
         own: it is an error if something else is asked for.
@@ -91,7 +91,12 @@ class Solver:
         self._how = {**wishes, "points": points, "threads": threads}
         self.paths, self.threads, self._strict = paths, threads, _is_strict(invalid)
         if not all(isinstance(source, OfIndex) for source in self._sources.values()):
-            self._setup.prepare(Grid.from_rows(["."]), 1)  # Mistakes are found here, not on a worker.
+            # Mistakes are found here, not on a worker.
+            kinds = {
+                getattr(getattr(one, "grid", None), "has_costs", False) for one in self._sources.values()
+            }
+            for has_costs in kinds:
+                self._setup.prepare(Grid([[False]], costs=[[1]] if has_costs else None), 1)
 
     def __call__(self, queries: Any, *, progress: Progress | None = None, first_row: int = 0) -> pa.Table:
         """Answer a table.
@@ -186,7 +191,12 @@ class Solver:
             raise MismatchError(f"sent by mediant {version}, received by mediant {__version__}", "version")
         self.__dict__.update(state)
 
+    def knows(self, key: Any) -> bool:
+        """Say whether there is a map of a key."""
+        return key in self._sources
+
     def _index(self, key: Any) -> Index:
+        """Give the index of the map of a key, or of the only one by the key None."""
         source = self._sources[key]
         if isinstance(source, OfIndex):
             return source.open(self._setup, self.threads)
