@@ -1,5 +1,7 @@
 //! Costs from arrays, and arrays from costs.
 
+use std::convert::identity;
+
 use mediant::{CostUnits, Costs, Error, Limits, Map, errors::CostsError};
 use numpy::{
     PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods, ndarray::ArrayView2,
@@ -66,9 +68,10 @@ pub(crate) fn costs_of(value: &Bound<'_, PyAny>, map: &Map, (height, width): (f6
             }
         )*};
     }
+    of_types!(identity; f64);
     of_types!(f64::from; f32, u8, u16, i16, i32, u32, i8);
     of_types!(|number| number as f64; i64, u64);
-    // Numbers of 64 bits are read where they are; of other machines, and of 16 or 128 bits, they are copied.
+    // Numbers of other machines, and of 16 or 128 bits.
     let wide = array.call_method1("astype", ("float64",))?;
     let numbers = wide.extract::<PyReadonlyArray2<'_, f64>>()?;
     let numbers = numbers.as_array();

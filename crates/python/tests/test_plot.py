@@ -365,3 +365,19 @@ def test_the_figure_of_the_readme(tmp_path):
         (committed[..., :3].max(axis=-1) < 0.4).mean(), rel=0.03
     )
     assert (folder / "paths.png").stat().st_size < 60_000
+
+
+def test_costs_are_the_background():
+    """Costs have colors, by their logarithms where they are far apart; fields of costs say so."""
+    costs = np.array([[1.0, 2.0, 20.0], [4.0, 9.0, 1.0]])
+    grid = mediant.Grid(costs > 10, costs=costs)
+    drawn = plot.grid(grid, plt.figure().add_subplot())
+    assert drawn.get_array().filled(-1).tolist() == [[1, 2, -1], [4, 9, 1]]
+    shades = [drawn.cmap(drawn.norm(cost)) for cost in (1, 4, 9)]
+    assert [sum(shade[:3]) for shade in shades] == sorted((sum(shade[:3]) for shade in shades), reverse=True)
+    wide = plot.grid(mediant.Grid.from_costs(costs * [[1, 1, 1], [1, 100, 1]]), plt.figure().add_subplot())
+    assert type(wide.norm).__name__ == "LogNorm"
+    for how, label in [({}, "cost of a cell"), ({"field": grid.field((0, 0))}, "cost")]:
+        ax = plot.show(grid, grid.path((0, 0), (1, 2)), **how)
+        assert [one.get_ylabel() for one in ax.child_axes] == [label]
+    plt.close("all")

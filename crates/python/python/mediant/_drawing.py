@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 
-from ._mediant import Field
+from ._mediant import Field, Grid
 
 try:
     import matplotlib.pyplot as plt
     from matplotlib import colormaps
-    from matplotlib.colors import LinearSegmentedColormap, ListedColormap
+    from matplotlib.colors import LinearSegmentedColormap, ListedColormap, LogNorm
     from matplotlib.figure import Figure
     from matplotlib.layout_engine import ConstrainedLayoutEngine
     from matplotlib.patches import Patch, Polygon, Rectangle
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import TypeAlias
 
-    from ._mediant import Grid, Paths, Placement, World
+    from ._mediant import Paths, Placement, World
 
     OnePath: TypeAlias = Union[ArrayLike, None]
     SeveralPaths: TypeAlias = Union[OnePath, Iterable[OnePath], Mapping[str, OnePath], Paths]
@@ -46,6 +46,12 @@ STYLES: tuple[Any, ...] = ("solid", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1
 COLORMAP = ListedColormap(colormaps["cividis"](np.linspace(0.15, 1.0, 256)), name="distances")
 """Of distances: near ones dark, but lighter than blocked cells. Lightness grows all the way, for gray print,
 and the color-blind see these colors as others do."""
+
+COSTS = ListedColormap(colormaps["YlOrBr"](np.linspace(0.0, 0.7, 256)), name="costs")
+"""Of costs: cheap cells nearly white, dear ones brown, all lighter than lines of paths."""
+
+MANY_TIMES = 30.0
+"""Costs that are so many times as great as others are drawn by their logarithms."""
 
 BLOCKED, BLOCKED_ON_FIELD = "0.25", "black"
 
@@ -128,6 +134,13 @@ class Canvas:
         look = {"cmap": colormap, "vmin": 0, "vmax": 1, "interpolation": "nearest", **look}
         return Canvas(self.ax, "center", self.world).image(shades, (rows, columns), look, block)
 
+    def costs(self, costs: NDArray[np.float64], look: Mapping[str, Any]) -> AxesImage:
+        """Draw the costs of cells."""
+        masked = np.ma.masked_invalid(costs)
+        wide = masked.count() > 0 and masked.max() > MANY_TIMES * masked.min()
+        look = {"cmap": COSTS, "norm": LogNorm() if wide else None, "interpolation": "nearest", **look}
+        return Canvas(self.ax, "center", self.world).image(masked, costs.shape[:2], look)
+
     def distances(
         self, distances: NDArray[np.float64], levels: ArrayLike | None, look: Mapping[str, Any]
     ) -> AxesImage:
@@ -182,12 +195,12 @@ class Canvas:
         line.update(path_effects=[Stroke(linewidth=1.2, foreground="white", alpha=0.7), Normal()])
         return self.ax.quiver(*tails.T, *vectors.T, **{**line, **look})
 
-    def color_bar(self, image: AxesImage) -> None:
-        """Add the scale of the distances, as high as the map."""
+    def color_bar(self, image: AxesImage, label: str) -> None:
+        """Add the scale of distances or costs, as high as the map."""
         (left, right), (low, high) = self.ax.get_xlim(), self.ax.get_ylim()
         longer = max(1.0, abs((high - low) / (right - left)))
         beside = self.ax.inset_axes((1 + 0.02 * longer, 0.0, 0.03 * longer, 1.0))
-        self.ax.figure.colorbar(image, cax=beside, label="distance (cells)")
+        self.ax.figure.colorbar(image, cax=beside, label=label)
 
     def legend(self, *, not_reached: bool) -> None:
         """Name what was drawn above the map, where it hides nothing, in as many columns as fit."""
@@ -228,6 +241,11 @@ def to_blocked(grid: Grid | ArrayLike) -> NDArray[np.bool_]:
     if blocked.ndim != 2:
         raise ValueError(f"expected a map of shape (rows, columns), found shape {blocked.shape}")
     return blocked
+
+
+def to_costs(grid: Grid | ArrayLike) -> NDArray[np.float64] | None:
+    """Take the costs of a map's cells, if they have any."""
+    return grid.costs if isinstance(grid, Grid) else None
 
 
 def to_distances(field: Field | ArrayLike) -> NDArray[np.float64]:

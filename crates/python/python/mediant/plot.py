@@ -34,6 +34,7 @@ from ._drawing import (
     free_vertices,
     new_axes,
     to_blocked,
+    to_costs,
     to_directions,
     to_distances,
     to_named,
@@ -65,6 +66,8 @@ def show(
 ) -> Axes:
     """Draw a map, with paths, distances and directions on it if there are any.
 
+    Costs of cells are drawn where there is no field: cheap cells light, dear ones brown.
+
     Parameters
     ----------
     grid : Grid or array of bool, shape (rows, columns)
@@ -72,7 +75,7 @@ def show(
     paths : path, sequence of paths, `Paths`, or mapping of names to paths, optional
         Each an array of shape (n, 2), or None where there is no path. The names of a mapping make a legend.
     field : Field or array of float, optional
-        The distance of each vertex, in cells; where it is infinite, the picture is hatched.
+        The distance of each vertex, in cells, or its cost; where it is infinite, the picture is hatched.
     flow : Field or array of float, shape (..., 2), optional
         The direction at each vertex, as (rows, columns); drawn as arrows.
     placement : {"center", "corner"}
@@ -104,18 +107,22 @@ def show(
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['k = 3']
     """
-    blocked, named = to_blocked(grid), to_named(paths)
+    blocked, named, costs = to_blocked(grid), to_named(paths), to_costs(grid)
     check_on_map(blocked, named, placement)
     own = ax is None
-    ax = new_axes(blocked, world, color_bar=field is not None) if ax is None else ax
+    has_colors = field is not None or costs is not None
+    ax = new_axes(blocked, world, color_bar=has_colors) if ax is None else ax
     canvas = Canvas(ax, placement, world)
     not_reached = False
     if field is not None:
         distances = to_distances(field)
         check_shape(blocked, distances, placement)
-        canvas.color_bar(canvas.distances(distances, levels, {}))
+        label = "distance (cells)" if costs is None else "cost"
+        canvas.color_bar(canvas.distances(distances, levels, {}), label)
         not_reached = bool((free_vertices(blocked, placement) & ~np.isfinite(distances)).any())
-    canvas.cells(blocked, {}, on_field=field is not None)
+    elif costs is not None:
+        canvas.color_bar(canvas.costs(costs, {}), "cost of a cell")
+    canvas.cells(blocked, {}, on_field=has_colors)
     if flow is not None:
         directions = to_directions(flow)
         check_shape(blocked, directions, placement)
@@ -133,7 +140,8 @@ def grid(
     """Draw a map: free cells white, blocked ones dark, each a sharp square.
 
     A map that has more cells than the axes have pixels is drawn in blocks of cells. A block that is blocked
-    in part is gray, far from white, so that a wall of one cell stays visible.
+    in part is gray, far from white, so that a wall of one cell stays visible. Of a grid with costs, free
+    cells have the color of their cost.
 
     Parameters
     ----------
@@ -149,7 +157,7 @@ def grid(
     Returns
     -------
     matplotlib.image.AxesImage
-        The map.
+        The map; of a grid with costs, the costs, which a color bar wants.
 
     Examples
     --------
@@ -158,7 +166,12 @@ def grid(
     >>> plot.grid(mediant.Grid.from_rows([".#.", "..."])).get_array().shape
     (2, 3)
     """
-    return Canvas(ax, "center", world).cells(to_blocked(grid), image, on_field=False)
+    canvas, costs = Canvas(ax, "center", world), to_costs(grid)
+    if costs is None:
+        return canvas.cells(to_blocked(grid), image, on_field=False)
+    drawn = canvas.costs(costs, image)
+    canvas.cells(to_blocked(grid), {}, on_field=True)
+    return drawn
 
 
 def field(
