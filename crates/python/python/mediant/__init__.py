@@ -2,7 +2,7 @@
 
 Points are (row, column) everywhere, as in NumPy. A map is a 2-D array of bool, in which True is blocked; a
 path is an integer array of shape (n, 2), or None if there is none; distances are floats, infinite where no
-path leads.
+path leads. Cells may have costs (`Grid.from_costs`): paths are the cheapest then, and distances are costs.
 
 Examples
 --------
