@@ -15,7 +15,7 @@ __all__ = ["like_raster", "read"]
 _CODE = "argument"
 
 _DEGREES = (
-    "{name}: the coordinates are degrees, and the width of a cell differs from row to row: project it to "
+    "costs: the coordinates are degrees, and the width of a cell differs from row to row: project it to "
     "meters first, for instance by costs.rio.reproject(costs.rio.estimate_utm_crs()); or give cell_size=, "
     "(height, width) in meters, if the map is so small that one size is right for all rows"
 )
@@ -59,7 +59,7 @@ def like_raster(values: NDArray[np.float64], like: Any, name: str) -> Any:
 
 def _plane(costs: Any) -> tuple[NDArray[Any], NDArray[np.bool_]]:
     """Give the numbers of an array of rows and columns, where they are, and those that are masked."""
-    mask = np.ma.getmask(costs) if isinstance(costs, np.ma.MaskedArray) else np.ma.nomask
+    mask: Any = np.ma.getmask(costs) if isinstance(costs, np.ma.MaskedArray) else np.ma.nomask
     try:
         numbers = np.asarray(costs)
     except (TypeError, ValueError) as error:
@@ -83,8 +83,9 @@ def _numbers(name: str, value: Any) -> list[float]:
     """Take one number or several; None is none."""
     if value is None:
         return []
-    items = list(value) if isinstance(value, Iterable) and np.ndim(value) > 0 else [value]
     try:
+        shape: tuple[int, ...] = np.shape(value)
+        items = list(value) if isinstance(value, Iterable) and shape else [value]
         return [float(item) for item in items]
     except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}: expected a number or several, found {type(value).__name__}") from None
@@ -119,24 +120,22 @@ def _nodata_of(raster: Any) -> list[float]:
 
 def _size_of_coordinates(raster: Any) -> tuple[float, float] | None:
     """Give the height and the width of a cell, by the coordinates of rows and columns."""
-    rows, columns = raster.dims[-2:]
-    sizes = []
-    for name in (rows, columns):
-        if name not in raster.coords:
-            continue
-        coordinate = raster.coords[name]
-        units = str(coordinate.attrs.get("units", "")).lower()
-        if units.startswith("degree") or str(name).lower() in ("lat", "lon", "latitude", "longitude"):
-            raise ArgumentError(_DEGREES.format(name="costs"), _CODE)
-        if coordinate.size > 1:
-            sizes.append((name, _spacing(str(name), np.asarray(coordinate.values, dtype="f8"))))
+    sizes: list[float | None] = []
+    for name in raster.dims[-2:]:
+        size = None
+        if name in raster.coords:
+            coordinate = raster.coords[name]
+            units = str(coordinate.attrs.get("units", "")).lower()
+            if units.startswith("degree") or str(name).lower() in ("lat", "lon", "latitude", "longitude"):
+                raise ArgumentError(_DEGREES, _CODE)
+            if coordinate.size > 1:
+                size = _spacing(str(name), np.asarray(coordinate.values, dtype="f8"))
+        sizes.append(size)
     if _is_geographic(raster):
-        raise ArgumentError(_DEGREES.format(name="costs"), _CODE)
-    if not sizes:
-        return None
-    known = dict(sizes)
+        raise ArgumentError(_DEGREES, _CODE)
     # Of one row or one column nothing is known: cells are square.
-    return known.get(rows, known.get(columns, 1.0)), known.get(columns, known.get(rows, 1.0))
+    known = [size for size in sizes if size is not None]
+    return (sizes[0] or known[0], sizes[-1] or known[-1]) if known else None
 
 
 def _spacing(name: str, places: NDArray[np.float64]) -> float:

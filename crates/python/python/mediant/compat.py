@@ -306,7 +306,7 @@ class MCP_Geometric:
         self._found = costs, traceback
         return costs.copy(), traceback.copy()
 
-    def traceback(self, end: Iterable[Any]) -> list[tuple[int, ...]]:
+    def traceback(self, end: Iterable[Any]) -> list[tuple[int, int]]:
         """Give the cells of the cheapest path to a cell, from the start that is nearest to it.
 
         Parameters
