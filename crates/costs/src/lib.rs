@@ -5,7 +5,8 @@
 //! scikit-image, the cost distance of ArcGIS and `r.cost` of GRASS compute for 8 neighbors, and `r.cost -k`
 //! for 16. Here it is defined for every k, at centers and at corners.
 //!
-//! - [`CostSurface`] is the surface, [`CostGraph`] its search graph under rules of motion and N(k).
+//! - [`CostSurface`] is the surface ([`CostUnits`] say what its integers stand for), [`CostGraph`] its search
+//!   graph under rules of motion and N(k).
 //! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
 //!   allocation, directions, paths and corridors.
 //! - [`CostAStar`] finds one path after another; with [`Landmarks`], the index, several times as fast.

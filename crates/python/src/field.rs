@@ -49,6 +49,13 @@ impl Field {
         Self { inner, sources, placement, ground }
     }
 
+    /// The distances of all vertices, of a field that is not needed any more.
+    pub(crate) fn into_distances(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let width = self.inner.width() as usize;
+        let lengths = py.detach(|| self.inner.lengths());
+        rows_array(py, lengths, width)
+    }
+
     /// The number of the source to which each vertex leads, row by row; -1 where none does.
     fn numbers(&self) -> Vec<i32> {
         let mut known = HashMap::new();

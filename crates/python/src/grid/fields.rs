@@ -91,7 +91,7 @@ impl Grid {
         limit: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.field_of("distances", sources, limit, motion)?.distances(sources.py())
+        self.field_of("distances", sources, limit, motion)?.into_distances(sources.py())
     }
 
     /// The vertices that can be reached within a distance.
@@ -131,7 +131,7 @@ impl Grid {
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let field = self.field_of("reach", sources, Some(limit), motion)?;
-        numpy_function(sources.py(), "isfinite")?.call1((field.distances(sources.py())?,))
+        numpy_function(sources.py(), "isfinite")?.call1((field.into_distances(sources.py())?,))
     }
 
     /// The directions in which the shortest paths lead to the nearest source: one goal for many agents.

@@ -30,6 +30,12 @@ disc: mediant.Disc = mediant.Grid(blocked, world=world).disc(meters=0.1).edit((0
 around: mediant.Answer = index.find_except((0, 0), (4, 8), blocked=[(1, 1)], free_ends=True)
 bound: float | None = mediant.bound(4, placement="corner")
 again: mediant.Grid = mediant.Grid(np.array([[1.5]]), above=1, values=(2, 3.5)).edit((0, 0), [[True]])
+costly: mediant.Grid = mediant.Grid.from_costs(np.ones((5, 9), "f4"), nodata=-9, cell_size=(30, 20.5))
+costs: NDArray[np.float64] | None = (
+    mediant.Grid(blocked, costs=np.ones((5, 9), "u1")).edit_costs((0, 0), 2).costs
+)
+corridor: NDArray[np.float64] = costly.field((0, 0)).corridor(costly.field([(4, 8)]))
+price: float = costly.find((0, 0), (4, 8)).cost
 for one in paths:
     if one is not None:
         rows: NDArray[np.int32] = one[:, 0]

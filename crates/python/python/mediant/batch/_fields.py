@@ -77,7 +77,7 @@ def fields(
     >>> clinics = {"north": (0, 0), "south": [(1, 2)]}
     >>> costs = batch.fields(clinics, mediant.Grid.from_costs(friction))
     >>> costs["north"].round(2).tolist()
-    [[0.0, 1.0, 3.5], [1.5, 2.12, 4.12]]
+    [[0.0, 1.0, 3.5], [1.5, 2.12, 3.12]]
     """
     here = Solver(maps, engine=ENGINE, **motion)
     jobs = {name: _job_of(name, wanted, here) for name, wanted in sources.items()}
