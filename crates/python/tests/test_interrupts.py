@@ -36,6 +36,8 @@ start, goal = (0, side - 1), (side - 1, side - 1)
 ends = [start, goal]
 """
 
+COSTS = "numbers = rng.uniform(1, 9, blocked.shape)\ncostly = mediant.Grid(blocked, costs=numbers)\n"
+
 # The preparation, and the call that is interrupted after it. The first search of a planner makes its scratch
 # memory, which cannot be interrupted: `first` may take longer.
 CALLS = {
@@ -80,6 +82,9 @@ CALLS = {
         "",
         "mediant.Grid(blocked).is_free(start)\nwhile True: mediant.Grid(blocked[:9]).is_free(start)",
     ),
+    "path on costs": (f"{COSTS}index = costly.prepare('astar', k=6)", "index.path(start, goal)"),
+    "field on costs": (COSTS, "costly.field(start, k=6)"),
+    "reading costs": (COSTS, "while True: mediant.Grid(blocked, costs=numbers)"),
     "widest": ("", "grid.widest_path(start, goal, surplus=0.5, k=4)"),
 }
 
