@@ -1,7 +1,5 @@
 //! Distance fields.
 
-use std::collections::HashMap;
-
 use mediant::{Ground, PlacementKind, Vertex};
 use mediant_formats::Picture;
 use numpy::PyArray2;
@@ -34,61 +32,20 @@ use crate::{
 #[pyclass(frozen, module = "mediant")]
 pub(crate) struct Field {
     inner: mediant::Field,
-    sources: Vec<Vertex>,
     placement: PlacementKind,
     ground: Ground,
 }
 
 impl Field {
-    pub(crate) const fn new(
-        inner: mediant::Field,
-        sources: Vec<Vertex>,
-        placement: PlacementKind,
-        ground: Ground,
-    ) -> Self {
-        Self { inner, sources, placement, ground }
+    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind, ground: Ground) -> Self {
+        Self { inner, placement, ground }
     }
 
     /// The distances of all vertices, of a field that is not needed any more.
     pub(crate) fn into_distances(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let width = self.inner.width() as usize;
-        let lengths = py.detach(|| self.inner.lengths());
+        let lengths = py.detach(|| self.inner.into_lengths());
         rows_array(py, lengths, width)
-    }
-
-    /// The number of the source to which each vertex leads, row by row; -1 where none does.
-    fn numbers(&self) -> Vec<i32> {
-        let mut known = HashMap::new();
-        for (number, &at) in (0..).zip(&self.sources) {
-            known.entry(at).or_insert(number);
-        }
-        let number = |at: Vertex| known.get(&at).copied();
-        if self.ground.costs().is_some() {
-            return self
-                .vertices()
-                .map(|at| self.inner.nearest_source(at).and_then(number).unwrap_or(-1))
-                .collect();
-        }
-        // A vertex leads where the next one does, whose number is known then.
-        let width = self.inner.width() as usize;
-        let index = |at: Vertex| at.y as usize * width + at.x as usize;
-        let mut numbers = vec![UNKNOWN; width * self.inner.height() as usize];
-        let mut way = Vec::new();
-        for from in self.vertices() {
-            let mut at = from;
-            let found = loop {
-                if numbers[index(at)] != UNKNOWN {
-                    break numbers[index(at)];
-                }
-                way.push(at);
-                match self.inner.next(at) {
-                    Some(next) => at = next,
-                    None => break number(at).filter(|_| self.inner.get(at).is_some()).unwrap_or(-1),
-                }
-            };
-            way.drain(..).for_each(|at| numbers[index(at)] = found);
-        }
-        numbers
     }
 
     /// All vertices, row by row.
@@ -97,9 +54,6 @@ impl Field {
         (0..height).flat_map(move |y| (0..width).map(move |x| Vertex::new(x, y)))
     }
 }
-
-/// The number of a source that is not known yet.
-const UNKNOWN: i32 = -2;
 
 #[pymethods]
 impl Field {
@@ -262,7 +216,9 @@ impl Field {
     /// >>> mediant.Grid.from_rows(["..#...."]).field([(0, 0), (0, 6)]).allocation().tolist()
     /// [[0, 0, -1, 1, 1, 1, 1]]
     fn allocation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        rows_array(py, py.detach(|| self.numbers()), self.inner.width() as usize)
+        let number = |number: Option<u32>| number.map_or(-1, |number| number as i32);
+        let numbers = py.detach(|| self.inner.allocation().into_iter().map(number).collect());
+        rows_array::<i32>(py, numbers, self.inner.width() as usize)
     }
 
     /// For each vertex the sum of its distances in two fields: the best path from a source of one to a source

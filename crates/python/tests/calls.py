@@ -95,7 +95,13 @@ def all_calls():
 
 
 # The engine that takes an option.
-TAKERS = {"heuristic": "astar", "levels": "subgoal", "memory": "subgoal", "side": "hpa", "landmarks": "landmarks"}
+TAKERS = {
+    "heuristic": "astar",
+    "levels": "subgoal",
+    "memory": "subgoal",
+    "side": "hpa",
+    "landmarks": "landmarks",
+}
 
 
 class Raster:

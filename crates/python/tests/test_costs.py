@@ -95,6 +95,23 @@ def test_costs_of_one_are_lengths(rng):
     assert np.array_equal(ones.field(free[0]).distances(), plain.field(free[0]).distances())
 
 
+def test_engines_on_costs(rng):
+    """All have the least cost over N(k); paths at any angle cost no more."""
+    blocked, costs = random_costs(rng, 14, 21)
+    grid = mediant.Grid(blocked, costs=costs)
+    free = np.argwhere(~blocked)
+    indexes = {name: grid.prepare(name, k=4) for name in ("dijkstra", "astar", "landmarks", "theta")}
+    again = pickle.loads(pickle.dumps(indexes["landmarks"]))
+    for start, goal in rng.choice(free, size=(15, 2)):
+        least = grid.distance(start, goal, k=4)
+        for index in (indexes["dijkstra"], indexes["astar"], indexes["landmarks"], again):
+            assert near(index.distance(start, goal), least)
+        for other in (indexes["theta"], grid.prepare("astar", k=4, smooth="linear")):
+            answer = other.find(start, goal)
+            assert answer.cost == least or answer.cost <= least * (1 + 1e-9)
+            assert answer.path is None or grid.holds(answer.path, k=4)
+
+
 def test_fields_of_several_sources(rng):
     """The nearest source by number, corridors, and where directions lead."""
     for has_costs in (True, False):

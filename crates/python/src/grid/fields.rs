@@ -187,7 +187,6 @@ impl Grid {
         let py = sources.py();
         let motion = Keywords::read(function, motion, MOTION)?.motion()?;
         let sources = Points::read("sources", sources)?.into_vec();
-        let told = sources.clone();
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
         let space = self.space(py, motion)?;
@@ -197,6 +196,6 @@ impl Grid {
         };
         let field =
             detached(py, self.cells(), Limits::new(), work)?.map_err(|error| raised_for("source", error))?;
-        Ok(Field::new(field, told, motion.rules.placement(), self.ground().clone()))
+        Ok(Field::new(field, motion.rules.placement(), self.ground().clone()))
     }
 }
