@@ -25,10 +25,11 @@ impl Grid {
     ///     ``dataset.read(1, masked=True)`` of rasterio; or a DataArray of xarray with two dimensions, of
     ///     which ``nodata`` and ``cell_size`` are read, too.
     /// nodata : float or iterable of float, optional
-    ///     Cells with this cost, or with one of these, are blocked; ``nan`` stands for all that are no number.
+    ///     Cells with this cost, or with one of these, are blocked; ``nan`` stands for all that are no
+    ///     number.
     /// cell_size : float or tuple of float, optional
-    ///     The side of a cell, or its height and its width, in the unit of length of which costs are one; 1 by
-    ///     default.
+    ///     The side of a cell, or its height and its width, in the unit of length of which costs are one; 1
+    ///     by default.
     /// transform : affine.Affine or tuple of float, optional
     ///     In place of ``cell_size``: ``dataset.transform`` of rasterio, or its six numbers.
     /// world : World, optional
