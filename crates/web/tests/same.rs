@@ -5,9 +5,9 @@
 //! one.
 
 use mediant::{
-    Answer, CornerRule, DiagonalGap, Engine, K, Map, Motion, Query, Rules, Setup, errors::QueryError,
+    Answer, CornerRule, DiagonalGap, Engine, FiniteK, K, Map, Motion, Query, Rules, Setup, errors::QueryError,
 };
-use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, rooms, suite_grid};
+use mediant_oracle::{Rng, caves, maze, noise, random_free_vertex, random_weighted, rooms, suite_grid};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test;
 
@@ -29,7 +29,7 @@ const QUERIES: usize = 2;
 type Row = (&'static str, u64, u64);
 
 /// The digests that every platform finds.
-const EXPECTED: [Row; 14] = [
+const EXPECTED: [Row; 16] = [
     ("astar", 0x3d56_eb4b_53f4_3c19, 168),
     ("dijkstra", 0x4dbe_ae31_28fa_7f5b, 28),
     ("wavefront", 0x2679_c4ef_36ad_8486, 28),
@@ -44,6 +44,8 @@ const EXPECTED: [Row; 14] = [
     ("subgoal-theta", 0xd632_2226_40f1_a03e, 40),
     ("hpa", 0x1f2e_ab71_0e82_1128, 72),
     ("chpa", 0x3eab_8a9f_86f9_3910, 88),
+    ("landmarks", 0xc518_b47f_154e_e151, 56),
+    ("costs", 0x83f7_7033_f2de_8247, 114),
 ];
 
 /// The map of a seed: of the suite, or every fourth time a larger one.
@@ -111,7 +113,39 @@ fn table() -> Vec<Row> {
             }
         }
     }
-    rows.into_iter().map(|(engine, digest, asked)| (engine.name(), digest.0, asked)).collect()
+    let rows = rows.into_iter().map(|(engine, digest, asked)| (engine.name(), digest.0, asked));
+    rows.chain([on_costs()]).collect()
+}
+
+/// The paths, counts and fields on random costs of cells, for each k.
+fn on_costs() -> Row {
+    let (mut digest, mut asked) = (Digest(0xcbf2_9ce4_8422_2325), 0);
+    for seed in SEEDS {
+        let (costs, _) = random_weighted(seed);
+        let (x, y) = costs.cell_size();
+        let map = Map::from(costs.grid().clone());
+        let rules = RULES[seed as usize % RULES.len()];
+        let space = map
+            .costs(costs.weights().iter().copied())
+            .and_then(|costs| costs.with_cell_size(x, y))
+            .and_then(|costs| costs.space(Motion::new(FiniteK::new(2 + seed as u32 % 7)?, rules)));
+        let space = space.unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        let mut rng = Rng::new(seed);
+        let mut vertex = || random_free_vertex(&mut rng, map.grid(), rules.placement());
+        for engine in [Engine::AStar, Engine::Landmarks, Engine::LazyTheta] {
+            let mut planner = space.planner(engine).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+            for _ in 0..QUERIES {
+                let (Some(start), Some(goal)) = (vertex(), vertex()) else { continue };
+                let found = planner.find_counted((start, goal));
+                digest.add(format!("{engine} {seed} {start} {goal} {found:?}").as_bytes());
+                asked += 1;
+            }
+        }
+        if let Some(field) = vertex().and_then(|source| space.field([source]).ok()) {
+            field.lengths().iter().for_each(|cost| digest.add(&cost.to_bits().to_le_bytes()));
+        }
+    }
+    ("costs", digest.0, asked)
 }
 
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen_test)]

@@ -121,6 +121,8 @@ const loaded: Index = edited.load(index.toBytes(), options);
 const repaired: Index = index.repair(edited);
 facts.push(index.engine, index.setup, index.guarantee, index.optimal, index.bound ?? 0, index.memoryBytes);
 facts.push(index.levels ?? "none", index.searchedBy);
+const guided: Index = land.space({ k: 4 }).prepare("landmarks", { landmarks: 4 });
+facts.push(guided.engine);
 facts.push(loaded.origin === "loaded", repaired.finish().isFinished, repaired.space.grid.width);
 
 const wishes: Wishes = {
