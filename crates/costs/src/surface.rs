@@ -32,8 +32,8 @@ pub struct CostSurface {
     id: MapId,
 }
 
-/// What the integers of a surface stand for. [`CostSurface::in_units`] makes the same surface again, of its
-/// costs and these, wherever they were sent.
+/// The meaning of a surface's integers. [`CostSurface::in_units`] makes the same surface again, of its costs
+/// and these, wherever they were sent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CostUnits {
     /// The [bounds](CostSurface::bounds) of the costs.
