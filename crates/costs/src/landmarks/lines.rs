@@ -83,6 +83,11 @@ impl Lines {
         let layout = Rows { states, ..self.layout };
         let mut lines = self.lines.to_vec();
         lines.resize(layout.lines(), Line([NONE; MOST]));
+        // Of states that are left out nothing stays in the last line.
+        let rest = states * layout.count % MOST;
+        if let Some(last) = lines.last_mut().filter(|_| rest > 0) {
+            last.0[rest..].fill(NONE);
+        }
         Self { lines: lines.into(), layout }
     }
 

@@ -39,7 +39,13 @@ fn an_edited_surface_is_the_one_made_anew() {
                 for x in 0..current.width() {
                     let edited = cells.iter().rev().find(|&&(column, row, _)| (column, row) == (x, y));
                     let expected = edited.map_or_else(|| current.cost(x, y), |&(_, _, cost)| cost);
-                    assert_eq!(next.cost(x, y), expected, "seed {seed}, edit {edit}: {cells:?}: {about}");
+                    // Beyond 32 bits costs are rounded.
+                    let most = (next.bounds().1 / 2.0_f64.powi(32)).floor();
+                    let differs =
+                        next.cost(x, y).zip(expected).map(|(cost, expected)| (cost - expected).abs());
+                    let is_right = differs.is_none_or(|differs| differs <= most)
+                        && next.cost(x, y).is_some() == expected.is_some();
+                    assert!(is_right, "seed {seed}, edit {edit}, ({x}, {y}): {cells:?}: {about}");
                 }
             }
             // Closed gaps follow the cells.
