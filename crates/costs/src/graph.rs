@@ -11,7 +11,7 @@ use crate::{
     gaps::Gaps,
     layout::{Layout, Steps},
     moves::{Move, Moves},
-    scan::Scanner,
+    scan::{Scanner, Visit, by_kind},
     surface::CostSurface,
 };
 
@@ -247,6 +247,20 @@ impl CostGraph {
             .all()
             .iter()
             .filter_map(move |of| Some((of, self.scanner.target(self.map.weights(), state, of)?)))
+    }
+
+    /// Visits the legal moves from a state whose cost is known, by the scan that is made for the graph's k.
+    /// It is compiled once for all visits, which it calls by a table: for those that do much themselves, or
+    /// that are rare.
+    pub(crate) fn scan(&self, from: (usize, u64), mut visit: &mut dyn Visit) {
+        let (scanner, weights) = (&self.scanner, self.map.weights());
+        by_kind!(self, [scanner.scan](weights, from, &mut visit));
+    }
+
+    /// Whether a state is blocked whatever the moves: then no scan asks for more of it.
+    #[inline]
+    pub(crate) fn is_blocked(&self, state: usize) -> bool {
+        self.is_center() && self.map.weights()[state] == 0
     }
 
     /// The number of states.

@@ -38,6 +38,7 @@ mod landmarks;
 mod layout;
 mod line;
 mod moves;
+mod near;
 #[cfg(doctest)]
 mod readme;
 mod scale;

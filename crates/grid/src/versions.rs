@@ -84,6 +84,14 @@ impl<W: Clone + PartialEq> Versioned<W> {
 }
 
 impl<W> Versioned<W> {
+    /// The words of a version that nobody else needs, in its own memory.
+    #[must_use]
+    pub fn into_words(mut self) -> Vec<W> {
+        // They are no spare.
+        self.line.take();
+        std::mem::take(&mut self.words).into_vec()
+    }
+
     /// The words, to be changed in place. The array has no earlier versions from then on.
     pub fn make_mut(&mut self) -> &mut [W] {
         self.line.take();
@@ -328,8 +336,15 @@ mod tests {
         assert_eq!(*copy, [4]);
         // The words that the copy had are no spare of the line.
         drop(copy);
-        let next = first.edit();
+        let mut next = first.edit();
         assert_eq!(next.words(), [1, 2, 3]);
+        // Nor are those that were taken.
+        next.set(0, 7);
+        let next = next.finish();
+        let place = next.as_ptr();
+        let taken = next.into_words();
+        assert_eq!((&taken[..], taken.as_ptr()), (&[7, 2, 3][..], place));
+        assert_eq!(first.edit().words(), [1, 2, 3]);
     }
 
     #[test]

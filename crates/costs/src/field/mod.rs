@@ -2,13 +2,14 @@
 
 mod buckets;
 mod directions;
+mod repair;
 pub(crate) mod search;
 #[cfg(not(target_family = "wasm"))]
 mod threads;
 
 use std::{num::NonZeroUsize, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt, Vertex};
+use mediant_grid::{Identity, Interrupt, Versioned, Vertex};
 use mediant_moves::{Cost, Vector};
 use mediant_search::{End, Path};
 
@@ -89,9 +90,9 @@ impl<'q> CostFieldQuery<'q> {
 pub struct CostField {
     graph: Arc<CostGraph>,
     /// By state.
-    costs: Vec<u64>,
+    costs: Versioned<u64>,
     /// By state: the number of the nearest source.
-    allocation: Option<Vec<u32>>,
+    allocation: Option<Versioned<u32>>,
     sources: Box<[Vertex]>,
     limit: f64,
     queue_bytes: usize,
@@ -127,16 +128,11 @@ impl CostField {
             return Err(CostFieldError::Limit { limit: query.limit });
         }
         query.sources.iter().try_for_each(|&at| graph.check(End::Start, at))?;
-        let starts: Vec<(usize, u32)> = query
-            .sources
-            .iter()
-            .zip(0..)
-            .filter_map(|(&at, number)| Some((graph.end(at)?, number)))
-            .collect();
+        let starts: Vec<(usize, u32)> = starts(&graph, query.sources).collect();
         let greatest = graph.greatest_cost(query.limit);
-        let Labels { mut costs, sources: allocation, queue_bytes } =
+        let Labels { costs, sources, queue_bytes } =
             search(&graph, &starts, (greatest, query.allocation), threads, interrupt)?;
-        costs.shrink_to_fit();
+        let (costs, allocation) = (costs.into(), sources.map(Into::into));
         Ok(Self { graph, costs, allocation, sources: query.sources.into(), limit: query.limit, queue_bytes })
     }
 
@@ -291,7 +287,7 @@ impl CostField {
         let Self { graph, costs, .. } = self;
         let (layout, size, unit) = (graph.layout(), graph.size(), graph.map().unit());
         let is_blocked = |at: usize| graph.is_center() && graph.map().weights()[at] == 0;
-        into_rows(costs, layout, size, |at, cost| {
+        into_rows(costs.into_words(), layout, size, |at, cost| {
             if cost != NONE && !is_blocked(at) { cost as f64 * unit } else { f64::INFINITY }
         })
     }
@@ -300,7 +296,8 @@ impl CostField {
     fn forget_gaps(&mut self) {
         for at in self.graph.scanner().gaps.positions() {
             if self.graph.map().weights()[at] == 0 {
-                self.costs[at] = if self.sources.contains(&self.graph.vertex(at)) { 0 } else { NONE };
+                self.costs.make_mut()[at] =
+                    if self.sources.contains(&self.graph.vertex(at)) { 0 } else { NONE };
             }
         }
     }
@@ -322,6 +319,11 @@ impl CostField {
         let (width, height) = self.graph.size();
         (0..height as i32).flat_map(move |y| (0..width as i32).map(move |x| Vertex::new(x, y)))
     }
+}
+
+/// The states of sources, each with its number.
+fn starts(graph: &CostGraph, sources: &[Vertex]) -> impl Iterator<Item = (usize, u32)> {
+    sources.iter().zip(0..).filter_map(|(&at, number)| Some((graph.end(at)?, number)))
 }
 
 /// Numbers of all vertices, row by row, from their costs by position, in the same memory.

@@ -4,11 +4,8 @@ use std::sync::Arc;
 
 use mediant_grid::{Identity, Interrupt, Interrupted};
 
-use super::{Landmarks, error::LandmarksError, is_blocked, lines::Lines};
-use crate::{
-    graph::CostGraph,
-    scan::{Visit, scan},
-};
+use super::{Landmarks, error::LandmarksError, lines::Lines};
+use crate::{graph::CostGraph, scan::Visit};
 
 impl Landmarks {
     /// The version of the format of [`to_bytes`](Self::to_bytes).
@@ -83,10 +80,10 @@ impl Landmarks {
             writer.row_mut(state).iter_mut().zip(row).for_each(|(to, from)| *to = word(from));
         }
         let mut check = Check { graph, lines: &lines, shift, from: 0, is_right: true };
-        for (number, state) in states(graph).filter(|&state| !is_blocked(graph, state)).enumerate() {
+        for (number, state) in states(graph).filter(|&state| !graph.is_blocked(state)).enumerate() {
             interrupt.check_every(1 << 12, number, "checking the landmarks")?;
             check.from = state;
-            scan(graph, (state, 0), &mut check);
+            graph.scan((state, 0), &mut check);
             if !check.is_right {
                 return Err(damaged("two numbers differ by more than a move"));
             }
@@ -116,7 +113,7 @@ struct Check<'s> {
 impl Visit for Check<'_> {
     #[inline]
     fn known(&self, to: usize) -> u64 {
-        if is_blocked(self.graph, to) { 0 } else { u64::MAX }
+        if self.graph.is_blocked(to) { 0 } else { u64::MAX }
     }
 
     #[inline]

@@ -2,11 +2,7 @@
 
 use mediant_grid::{Interrupt, Interrupted, Vertex};
 
-use super::is_blocked;
-use crate::{
-    graph::CostGraph,
-    scan::{Visit, scan},
-};
+use crate::{graph::CostGraph, scan::Visit};
 
 /// The components that have landmarks.
 pub(super) struct Components {
@@ -35,7 +31,7 @@ impl Components {
             let mut next = 0;
             while let Some(&state) = flood.found.get(next) {
                 interrupt.check_every(1 << 14, scanned, "finding the components")?;
-                scan(graph, (state as usize, 0), &mut flood);
+                graph.scan((state as usize, 0), &mut flood);
                 (next, scanned) = (next + 1, scanned + 1);
             }
             if flood.found.len() < FEWEST {
@@ -102,7 +98,7 @@ struct Flood<'g> {
 impl Visit for Flood<'_> {
     #[inline]
     fn known(&self, to: usize) -> u64 {
-        if self.labels[to] == NO_LABEL && !is_blocked(self.graph, to) { u64::MAX } else { 0 }
+        if self.labels[to] == NO_LABEL && !self.graph.is_blocked(to) { u64::MAX } else { 0 }
     }
 
     fn relax(&mut self, _: usize, to: usize, _: u64) {

@@ -204,12 +204,6 @@ impl Landmarks {
 
 pub(crate) use lines::Numbers;
 
-/// Whether a state is blocked whatever the moves: then no scan asks for more of it.
-#[inline]
-fn is_blocked(graph: &CostGraph, state: usize) -> bool {
-    graph.is_center() && graph.map().weights()[state] == 0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,13 +7,9 @@ use mediant_grid::{Identity, Interrupt};
 use super::{
     Landmarks, NONE,
     error::LandmarksError,
-    is_blocked,
     lines::{Lines, LinesEdit},
 };
-use crate::{
-    graph::CostGraph,
-    scan::{Visit, scan},
-};
+use crate::{graph::CostGraph, near::ends_near, scan::Visit};
 
 /// A number is lowered in so many times the time that it takes to make it.
 const SLOWNESS: usize = 8;
@@ -115,38 +111,16 @@ fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Lines {
 
 /// The ends of all moves that may have become cheaper; `None` for more than so many.
 fn lowered(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)], most: usize) -> Option<Vec<usize>> {
-    let layout = after.layout();
-    let reach = after.scanner().moves.all().iter().map(|of| of.vector.x).max().unwrap_or_default();
-    // The corners of a cell lie at it and beyond.
-    let beyond = reach + i32::from(!after.is_center());
-    let (width, height) = after.size();
-    let is_on = |x, y| x < after.map().width() && y < after.map().height();
-    let mut states = Vec::new();
-    for (x, y) in cells.iter().copied().filter(|&(x, y)| is_on(x, y)).map(|(x, y)| (x as i32, y as i32)) {
-        let [was, is] = [before, after].map(|graph| graph.map().weights()[layout.position(x, y)]);
-        if is == 0 || was > 0 && is >= was {
-            continue;
+    let (width, height) = (after.map().width(), after.map().height());
+    let is_lower = |&(x, y): &(u32, u32)| {
+        if x >= width || y >= height {
+            return false;
         }
-        // Cells near one another have ends in common.
-        if states.len() / 2 > most {
-            states.sort_unstable();
-            states.dedup();
-            if states.len() > most {
-                return None;
-            }
-        }
-        for y in (y - reach).max(0)..=(y + beyond).min(height as i32 - 1) {
-            for x in (x - reach).max(0)..=(x + beyond).min(width as i32 - 1) {
-                let at = layout.position(x, y);
-                states.push(at);
-                states.extend(after.scanner().gaps.upper(at));
-            }
-        }
-    }
-    states.sort_unstable();
-    states.dedup();
-    states.retain(|&state| !is_blocked(after, state));
-    (states.len() <= most).then_some(states)
+        let at = after.layout().position(x as i32, y as i32);
+        let [was, is] = [before, after].map(|graph| graph.map().weights()[at]);
+        is > 0 && (was == 0 || is < was)
+    };
+    ends_near(after, cells.iter().copied().filter(is_lower), most)
 }
 
 /// Lowers the numbers of one landmark after the other.
@@ -184,7 +158,7 @@ impl Lowering<'_> {
                 }
                 interrupt.check_every(1 << 12, scanned, "repairing the landmarks")?;
                 scanned += 1;
-                scan(graph, (state, u64::from(number) << self.shift), self);
+                graph.scan((state, u64::from(number) << self.shift), self);
             }
         }
         Ok(true)
@@ -194,7 +168,7 @@ impl Lowering<'_> {
 impl Visit for Lowering<'_> {
     #[inline]
     fn known(&self, to: usize) -> u64 {
-        if is_blocked(self.graph, to) {
+        if self.graph.is_blocked(to) {
             return 0;
         }
         match self.lines.number(to, self.slot) {

@@ -13,7 +13,6 @@ use mediant_moves::Vector;
 use self::{far::Far, quadrant::Scan};
 use crate::{
     gaps::{Gaps, is_lower},
-    graph::CostGraph,
     layout::Steps,
     moves::{Factor, Move, Moves, Part},
     scale::Scale,
@@ -58,13 +57,6 @@ impl<V: Visit + ?Sized> Visit for &mut V {
     fn relax(&mut self, by: usize, to: usize, cost: u64) {
         (**self).relax(by, to, cost);
     }
-}
-
-/// Visits the legal moves from a state, by the scan that is made for the graph's k. It is compiled once for
-/// all visits, which it calls by a table: for those that do much themselves, or that are rare.
-pub(crate) fn scan(graph: &CostGraph, from: (usize, u64), mut visit: &mut dyn Visit) {
-    let (scanner, weights) = (graph.scanner(), graph.map().weights());
-    by_kind!(graph, [scanner.scan](weights, from, &mut visit));
 }
 
 /// The moves of a search graph, as searches read them.

@@ -16,7 +16,7 @@ use crate::{
     graph::{CostGraph, primitive},
     guide::Guide,
     landmarks::Landmarks,
-    scan::{Visit, scan},
+    scan::Visit,
 };
 
 /// Theta* (Nash, Daniel, Koenig & Felner 2007) on a cost surface: A* in which the parent of a node may be the
@@ -184,7 +184,7 @@ impl CostTheta {
             let goal_at = graph.vertex(*goal);
             let mut relaxing =
                 Relaxing { graph, guide, goal_at, here: (state, at), above, weights, nodes, open, observer };
-            scan(graph, (state, node.g.to_bits()), &mut relaxing);
+            graph.scan((state, node.g.to_bits()), &mut relaxing);
         }
         SearchStatus::Searching
     }

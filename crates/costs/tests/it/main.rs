@@ -3,6 +3,7 @@
 mod common;
 mod costmaps;
 mod edits;
+mod field_edits;
 mod fields;
 mod landmarks;
 mod paths;
