@@ -1,12 +1,14 @@
 //! Distance fields in a space.
 
+#[cfg(feature = "costs")]
+mod costs;
 mod heading;
 mod rows;
 
 use std::{fmt, num::NonZeroUsize, sync::Arc};
 
 #[cfg(feature = "costs")]
-use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph};
+use mediant_costs::{CostField, CostGraph};
 #[cfg(feature = "walking")]
 use mediant_costs::{Heading, WalkingField, WalkingGraph};
 use mediant_grid::{
@@ -18,8 +20,6 @@ use mediant_search::{
     self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
 };
 
-#[cfg(feature = "costs")]
-use crate::memory_check;
 use crate::{
     change::Change,
     error::Error,
@@ -191,38 +191,13 @@ impl Fields {
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
             #[cfg(feature = "costs")]
-            Makers::Costs(graph, threads) => return on_costs((graph, *threads), query, interrupt),
+            Makers::Costs(graph, threads) => return costs::on_costs((graph, *threads), query, interrupt),
             #[cfg(feature = "walking")]
             Makers::Walking(graph) => {
                 return heading::over_elevation(graph, Heading::ToSources, query, interrupt);
             }
         };
         Ok(Field { inner: inner.map_err(told)? })
-    }
-}
-
-/// A field of costs. With one source that is the nearest to all; of several it is written down which is.
-#[cfg(feature = "costs")]
-fn on_costs(
-    (graph, threads): (&Arc<CostGraph>, NonZeroUsize),
-    query: FieldQuery<'_>,
-    interrupt: &Interrupt,
-) -> Result<Field, Error> {
-    let has_several = query.sources.len() > 1;
-    let query = CostFieldQuery::new(query.sources).within(query.limit);
-    let query = if has_several { query.with_allocation() } else { query };
-    memory_check::check("the field", CostField::bytes(graph, has_several) as u64)?;
-    let field = CostField::on_threads(Arc::clone(graph), query, threads, interrupt).map_err(told_on_costs)?;
-    Ok(Field { inner: Inner::Costs(field) })
-}
-
-#[cfg(feature = "costs")]
-fn told_on_costs(error: CostFieldError) -> Error {
-    match error {
-        CostFieldError::Query(error) => error.into(),
-        CostFieldError::Mismatch(mismatch) => mismatch.into(),
-        CostFieldError::Interrupted(interrupted) => interrupted.into(),
-        _ => QueryError::CostLimit.into(),
     }
 }
 
@@ -272,9 +247,11 @@ use of_each;
 
 impl Field {
     /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
-    /// last bit. Over N(k) the work follows the vertices whose distance changes. Where these are many it is
-    /// made anew, and so it is at any angle, unless no path in it comes near the change; and where cells have
-    /// costs. This field stays as it is; the next repair takes its memory, if it is given up by then.
+    /// last bit. Over N(k) the work follows the vertices whose distance, or cost, changes. Where these are many
+    /// it is made anew, and so it is at any angle, unless no path in it comes near the change; where costs
+    /// leave the [bounds](crate::Costs::bounds) of the map, or closed gaps come or go between cells of costs;
+    /// and over elevation. This field stays as it is; the next repair takes its memory, if it is given up by
+    /// then.
     ///
     /// ```
     /// use mediant::{Map, Motion};
@@ -310,10 +287,7 @@ impl Field {
         let cells = is_of_the_same_size.then(|| change.of_grid());
         let inner = match (&self.inner, after.placed(), after.motion().k.finite()) {
             #[cfg(feature = "costs")]
-            (Inner::Costs(field), ..) => {
-                let CostFieldQuery { sources, limit, .. } = field.query();
-                return after.field_of(sources, limit, interrupt);
-            }
+            (Inner::Costs(field), ..) => return costs::repaired(field, change, interrupt),
             #[cfg(feature = "walking")]
             (Inner::Walking(field), ..) => return heading::again(field, after, interrupt),
             (Inner::Centers(field), Placed::Centers(layers), Some(k)) => {
@@ -401,7 +375,7 @@ impl Field {
         self.identity().check("the field", ("the other field", other.identity()))?;
         #[cfg(feature = "costs")]
         if let (Inner::Costs(field), Inner::Costs(other)) = (&self.inner, &other.inner) {
-            return field.corridor(other).map_err(told_on_costs);
+            return field.corridor(other).map_err(costs::told);
         }
         #[cfg(feature = "walking")]
         if let (Inner::Walking(field), Inner::Walking(other)) = (&self.inner, &other.inner) {

@@ -13,7 +13,8 @@
 //!    neighbor makes them cheaper. What it ends with is too small nowhere, and no move makes it smaller:
 //!    elsewhere the old costs were so already. These are the least costs. ∎
 //!
-//! *Near* a cell are the ends of all moves that depend on it.
+//! *Near* a cell are the ends of all moves that depend on it. Moves become dearer only by cells that cost more,
+//! or are blocked: near these states are raised. By the others moves become cheaper.
 //!
 //! **Allocation.** With it a label is a cost and the number of a source, and the lesser of two labels is that
 //! of the lesser cost, then of the lesser number. A move adds to the cost alone. All of the above holds for
@@ -124,36 +125,35 @@ impl CostField {
     }
 }
 
-/// What changed: the cells, by position, that are now blocked, or free, and were not so before; and the
-/// states near all cells that changed.
+/// What changed. Gaps that stay gaps but turn have cells around them that rose, and others that fell.
 struct Near {
+    /// Cells that are now blocked, by position.
     blocked: Vec<usize>,
+    /// Cells that are now free.
     freed: Vec<usize>,
-    states: Vec<usize>,
+    /// The states near cells that cost more or are blocked: their moves may have become dearer.
+    risen: Vec<usize>,
+    /// The states near cells that cost less or are freed: their moves may have become cheaper.
+    fallen: Vec<usize>,
 }
 
 /// `None` if it is too much.
 fn near(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Option<Near> {
     let (layout, width, height) = (after.layout(), after.map().width(), after.map().height());
-    let weights = |at: usize| [before, after].map(|graph| graph.map().weights()[at]);
     let position = |(x, y): (u32, u32)| layout.position(x as i32, y as i32);
-    let is_changed = |&(x, y): &(u32, u32)| {
-        x < width && y < height && {
-            let [was, is] = weights(position((x, y)));
-            was != is
-        }
-    };
-    let changed = || cells.iter().copied().filter(is_changed);
-    let states = ends_near(after, changed(), after.states() / SHARE + AT_LEAST)?;
-    let [mut blocked, mut freed] = [(); 2].map(|()| Vec::new());
-    for at in changed().map(position) {
-        match weights(at) {
-            [_, 0] => blocked.push(at),
-            [0, _] => freed.push(at),
-            _ => {}
-        }
-    }
-    Some(Near { blocked, freed, states })
+    let weights = |at: usize| [before, after].map(|graph| graph.map().weights()[at]);
+    // A blocked cell is dearer than any.
+    let costs = |at: usize| weights(at).map(|weight| weight.wrapping_sub(1));
+    let is_on = |&(x, y): &(u32, u32)| x < width && y < height;
+    let cells = || cells.iter().copied().filter(is_on);
+    let are = |is: fn([u32; 2]) -> bool| cells().filter(move |&cell| is(costs(position(cell))));
+    let most = after.states() / SHARE + AT_LEAST;
+    Some(Near {
+        blocked: are(|[was, is]| was != is && is == u32::MAX).map(position).collect(),
+        freed: are(|[was, is]| was == u32::MAX && is < was).map(position).collect(),
+        risen: ends_near(after, are(|[was, is]| is > was), most)?,
+        fallen: ends_near(after, are(|[was, is]| is < was), most)?,
+    })
 }
 
 /// A cost and the number of a source, which is 0 without allocation.
@@ -194,8 +194,8 @@ impl Repair<'_> {
             near.blocked.iter().for_each(|&at| self.set(at, (0, u32::MAX)));
             near.freed.iter().for_each(|&at| self.set(at, (NONE, u32::MAX)));
         }
-        match self.raise(&near.states, starts)? {
-            Some(raised) => self.lower(near.states.iter().copied().chain(raised), starts),
+        match self.raise(&near.risen, starts)? {
+            Some(raised) => self.lower(near.fallen.iter().copied().chain(raised), starts),
             None => Ok(false),
         }
     }
@@ -310,7 +310,7 @@ impl Repair<'_> {
     fn reached(&self) -> usize {
         let costs = self.costs.words();
         // Odd, so that it meets every place of a tile.
-        let step = costs.len() / SAMPLE | 1;
+        let step = (costs.len() / SAMPLE) | 1;
         let sample = costs.iter().enumerate().step_by(step);
         sample.filter(|&(at, &cost)| cost != NONE && !(cost == 0 && self.graph.is_blocked(at))).count() * step
     }

@@ -10,8 +10,20 @@ use crate::common::{for_random_maps, graph, vertices};
 
 type Edit = Vec<(u32, u32, Option<f64>)>;
 
+/// A gap in the middle of a map, between the cells of one diagonal or the other.
+fn gap(map: &CostSurface, is_turned: bool) -> Edit {
+    let (x, y) = (map.width() / 2, map.height() / 2);
+    let [free, blocked] = [Some(map.bounds().0), None];
+    let [one, other] = if is_turned { [free, blocked] } else { [blocked, free] };
+    let (left, above) = (x.saturating_sub(1), y.saturating_sub(1));
+    vec![(left, above, one), (x, above, other), (left, y, other), (x, y, one)]
+}
+
 /// Costs that rise and fall, walls and cells that are freed, edits of nothing, and seldom one beyond the bounds.
 fn random_edit(map: &CostSurface, rng: &mut Rng) -> Edit {
+    if rng.chance(25) {
+        return gap(map, rng.chance(50));
+    }
     let (least, greatest) = map.bounds();
     let most = [1, 1, 3, 9][rng.below(4) as usize];
     (0..1 + rng.below(most))
@@ -51,11 +63,13 @@ fn random_query<'q>(graph: &Arc<CostGraph>, sources: &'q [Vertex], rng: &mut Rng
 #[test]
 fn a_repaired_field_is_the_one_made_anew() {
     let (mut repairs, mut anews, mut blocked) = (0, 0, 0);
-    for_random_maps(60, |map, surface, rules, k, about| {
+    for_random_maps(40, |map, surface, rules, k, about| {
         let mut rng = Rng::new(u64::from(k) + u64::from(map.grid().width()) * 99);
         let before = graph(surface, rules, k);
+        let middle = Vertex::new((surface.width() / 2) as i32, (surface.height() / 2) as i32);
         let sources: Vec<Vertex> = (0..1 + rng.below(4))
             .filter_map(|_| random_free_vertex(&mut rng, map.grid(), rules.placement()))
+            .chain(Some(middle).filter(|&at| before.is_free(at)))
             .collect();
         let query = random_query(&before, &sources, &mut rng);
         let new = |graph: &Arc<CostGraph>| CostField::new(Arc::clone(graph), query, &Interrupt::NEVER);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use mediant_costs::CostSurface;
 use mediant_grid::{Rectangle, Vertex};
 
 use super::Change;
@@ -26,6 +27,21 @@ impl Change {
     ) -> Result<Self, Error> {
         let cells = self.before.map().check_cells(cells)?;
         self.with_edits(cells)
+    }
+
+    /// The cells of this change whose costs differ between two surfaces.
+    pub(crate) fn cells_between(&self, [old, new]: [&CostSurface; 2]) -> Vec<(u32, u32)> {
+        let cells = self.each_cell(new.width(), new.height());
+        cells.filter(|&(x, y)| old.cost(x, y) != new.cost(x, y)).collect()
+    }
+
+    /// The cells of this change that are on a map of this size.
+    pub(crate) fn each_cell(&self, width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
+        self.cells().iter().flat_map(move |at| {
+            let columns = at.x..at.x.saturating_add(at.width).min(width);
+            let rows = at.y..at.y.saturating_add(at.height).min(height);
+            rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+        })
     }
 
     pub(super) fn with_edits(mut self, cells: Edits) -> Result<Self, Error> {

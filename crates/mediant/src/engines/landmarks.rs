@@ -48,7 +48,7 @@ mod index {
     use std::{num::NonZeroU32, sync::Arc};
 
     use mediant_costs::{CostAStar, CostGraph, CostSurface, Landmarks, LandmarksError};
-    use mediant_grid::{Grid, Interrupt, Interrupted, Rectangle};
+    use mediant_grid::{Grid, Interrupt, Interrupted};
 
     use super::LandmarkOptions;
     use crate::{
@@ -122,28 +122,17 @@ mod index {
         /// The graph after a change, and the cells that have changed.
         fn after(&self, change: &Change) -> Result<Edited, Error> {
             if let Some(surface) = change.after().surface() {
-                let (old, new) = (self.graph.map(), surface.graph.map());
-                let cells = cells_in(change.cells(), new.width(), new.height());
-                let changed = cells.filter(|&(x, y)| old.cost(x, y) != new.cost(x, y)).collect();
+                let changed = change.cells_between([self.graph.map(), surface.graph.map()]);
                 return Ok((Arc::clone(&surface.graph), changed));
             }
             let [old, new]: [&Grid; 2] = [change.before(), change.after()].map(|space| &**space.map().grid());
             let blocked = |grid: &Grid, (x, y): (u32, u32)| grid.is_blocked(x as i32, y as i32);
-            let cells = cells_in(change.cells(), new.width(), new.height());
+            let cells = change.each_cell(new.width(), new.height());
             let changed: Vec<_> = cells.filter(|&at| blocked(old, at) != blocked(new, at)).collect();
             let edits = changed.iter().map(|&(x, y)| (x, y, (!blocked(new, (x, y))).then_some(1.0)));
             let surface = self.graph.map().edit(edits)?;
             Ok((Arc::new(self.graph.after(Arc::new(surface), &changed)?), changed))
         }
-    }
-
-    /// The cells of a map in rectangles.
-    fn cells_in(at: &[Rectangle], width: u32, height: u32) -> impl Iterator<Item = (u32, u32)> {
-        at.iter().flat_map(move |at| {
-            let columns = at.x..at.x.saturating_add(at.width).min(width);
-            let rows = at.y..at.y.saturating_add(at.height).min(height);
-            rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
-        })
     }
 
     impl EngineIndex for LandmarkIndex {

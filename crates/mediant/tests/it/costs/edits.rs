@@ -77,6 +77,8 @@ fn what_was_prepared_follows_edits_of_costs() {
                 Ok(repaired) => {
                     let anew = anew.expect("the same sources");
                     assert_eq!(repaired.lengths(), anew.lengths(), "{about}");
+                    assert_eq!(repaired.allocation(), anew.allocation(), "{about}");
+                    assert!(anew.iter().all(|(at, _)| repaired.next(at) == anew.next(at)), "{about}");
                     field = repaired;
                 }
                 Err(error) => {
