@@ -8,7 +8,7 @@
 //! - [`CostSurface`] is the surface ([`CostUnits`] say what its integers stand for), [`CostGraph`] its search
 //!   graph under rules of motion and N(k).
 //! - [`CostField`] has the cost of every vertex to the nearest of one or many sources, with limit,
-//!   allocation, directions, paths and corridors.
+//!   allocation, directions, paths and corridors. It is [repaired](CostField::repaired) after an edit.
 //! - [`CostAStar`] finds one path after another; with [`Landmarks`], the index, several times as fast.
 //! - [`CostTheta`] finds paths of straight segments at any angle, none dearer than the least cost over N(k);
 //!   [`smooth`] makes a path one.

@@ -120,9 +120,9 @@
 //!
 //! [`Space::engine_for`] names the engine for so many paths between two edits ([`Demand::Changing`]).
 //!
-//! A [`Field`] over N(k) follows, too ([`Field::repair`]): the same to the last bit. So do distances to
-//! obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a [`Disc`] or a [`Square`],
-//! whose `change` is that of their spaces.
+//! A [`Field`] over N(k) follows, too ([`Field::repair`]), where cells have costs as well: the same to the
+//! last bit. So do distances to obstacles ([`Clearance::after`](grid::Clearance::after)), and the maps of a
+//! [`Disc`] or a [`Square`], whose `change` is that of their spaces.
 //!
 //! An edit of one cell takes 3 to 10 µs in the median with all of that on 512 × 512 cells, 5 to 24 µs up to
 //! 4096 × 4096, at k ≤ 3 and any angle; with HPA* 21 to 73 µs, with JPS+ 8 to 47 (`docs/performance.md`). A

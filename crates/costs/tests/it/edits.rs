@@ -79,7 +79,7 @@ fn an_edited_surface_is_the_one_made_anew() {
 }
 
 #[test]
-fn a_planner_follows_and_a_field_is_made_anew() {
+fn a_planner_follows_an_edit() {
     let rules = Rules::Center(CornerRule::Never);
     let open = Arc::new(
         CostSurface::from_fn(30, 20, |x, _| Some(if x == 15 { 9.0 } else { 1.0 })).expect("a surface"),
