@@ -1,12 +1,12 @@
 //! Distance fields.
 
-use mediant::{Ground, PlacementKind, Vertex};
+use mediant::{DirectionCode, Ground, PlacementKind, Vertex, names};
 use mediant_formats::Picture;
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyBytes};
 
 use crate::{
-    arguments::point as vertex,
+    arguments::{point as vertex, word},
     arrays::{PathPoints, png_of, rows_array},
     errors::{raised, wrong_type},
 };
@@ -221,6 +221,39 @@ impl Field {
         rows_array::<i32>(py, numbers, self.inner.width() as usize)
     }
 
+    /// The directions to the nearest sources as numbers that GIS programs read.
+    ///
+    /// Parameters
+    /// ----------
+    /// code : {"arcgis", "degrees", "grass"}
+    ///     ``"arcgis"`` are the back links of ArcGIS, for k = 2 and 3: 1 to 8 clockwise from east, 0 at a
+    ///     source. ``"degrees"`` are its back directions: degrees clockwise from north, above 0 to 360, 0 at
+    ///     a source. ``"grass"`` are the movement directions of GRASS: degrees counterclockwise from east,
+    ///     above 0 to 360; sources have none.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray
+    ///     The shape of the field, float64: the direction to the vertex that `next` has; ``nan`` where no
+    ///     path leads, and where the code has no number.
+    ///
+    /// Raises
+    /// ------
+    /// OptionError
+    ///     For a code that is none of these.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> field = mediant.Grid.from_rows(["..", ".#"]).field((0, 0))
+    /// >>> field.directions("arcgis").tolist(), field.directions("grass").tolist()
+    /// ([[0.0, 5.0], [7.0, nan]], [[nan, 180.0], [90.0, nan]])
+    fn directions<'py>(&self, code: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let (py, code) = (code.py(), word::<Code>("code", code)?.into());
+        let numbers = py.detach(|| self.inner.directions(code));
+        rows_array(py, numbers, self.inner.width() as usize)
+    }
+
     /// For each vertex the sum of its distances in two fields: the best path from a source of one to a source
     /// of the other that leads over it. The vertices with little more than the least are a corridor.
     ///
@@ -291,6 +324,26 @@ impl Field {
 
     fn __repr__(&self) -> String {
         format!("<mediant.Field of {} × {} vertices>", self.inner.height(), self.inner.width())
+    }
+}
+
+/// A code of directions.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Code {
+    ArcGis,
+    Degrees,
+    Grass,
+}
+
+names!(Code: ArcGis => "arcgis", Degrees => "degrees", Grass => "grass");
+
+impl From<Code> for DirectionCode {
+    fn from(code: Code) -> Self {
+        match code {
+            Code::ArcGis => Self::ArcGisBackLink,
+            Code::Degrees => Self::ArcGisDegrees,
+            Code::Grass => Self::Grass,
+        }
     }
 }
 

@@ -203,6 +203,7 @@ class Things:
             "transform": (2.0, 0.0, 10.0, 0.0, -2.0, 50.0),
             "other": self.owners["Field"],
             "like": Raster(np.ones((6, 9))),
+            "costmap": np.arange(12).reshape(3, 4),
         }
         if "PathLike" in parameter.type:
             names = {"load": "index", "save": "saved", "write_trace": "trace"}

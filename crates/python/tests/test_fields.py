@@ -243,3 +243,42 @@ def test_widest_path(rng):
                     assert disc.distance(start, goal) > (1 + surplus) * shortest - 1e-6
             checked += 1
     assert checked
+
+
+def code_of(code, d_row, d_column):
+    """The number of a direction; None if the code has none."""
+    if code == "arcgis":
+        clockwise = [(0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1)]
+        return clockwise.index((d_row, d_column)) + 1 if (d_row, d_column) in clockwise else None
+    angle = math.degrees(math.atan2(-d_row, d_column))  # Counterclockwise from east.
+    if code == "grass" and sorted((abs(d_row), abs(d_column))) == [1, 2]:
+        angle = round(angle / 22.5) * 22.5
+    return (90 - angle if code == "degrees" else angle) % 360 or 360.0
+
+
+@pytest.mark.parametrize("how", [{"k": 2}, {"k": 3}, {"k": 4}, {"k": 3, "placement": "corner"}, {"k": "any"}])
+def test_directions_as_numbers(rng, how):
+    """They lead to the next vertex, on maps and on costs."""
+    for has_costs in (False, True):
+        if has_costs and how["k"] == "any":
+            continue
+        blocked = slow.random_map(rng, 9, 12, 0.25)
+        costs = rng.integers(1, 9, size=blocked.shape) if has_costs else None
+        grid = mediant.Grid(blocked, costs=costs)
+        free = [at for at in np.argwhere(~blocked).tolist() if grid.is_free(at, **how)]
+        field = grid.field([free[0], free[-1]], **how)
+        distances, after = field.distances(), field.next()
+        for code, source in (("arcgis", 0.0), ("degrees", 0.0), ("grass", None)):
+            found, numbers = field.directions(code), set()
+            assert found.shape == field.shape and found.dtype == np.float64
+            for at in np.ndindex(field.shape):
+                wanted = source
+                if not np.isfinite(distances[at]):
+                    wanted = None
+                elif distances[at] > 0:
+                    wanted = code_of(code, *(after[at] - at).tolist())
+                assert found[at] == pytest.approx(np.nan if wanted is None else wanted, nan_ok=True)
+                numbers.add(wanted)
+            assert len(numbers) >= 4
+    with pytest.raises(mediant.OptionError, match=r"code.*arcgis, degrees, grass"):
+        field.directions("north")

@@ -2,6 +2,7 @@
 
 mod agents;
 mod batches;
+mod costmaps;
 mod costs;
 mod disc;
 mod edits;
