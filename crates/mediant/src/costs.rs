@@ -102,6 +102,11 @@ impl Costs {
         Self { map, surface, recent: Arc::default() }
     }
 
+    /// These costs without what they keep, of which a space of them may become a part.
+    pub(crate) fn alone(&self) -> Self {
+        Self::of_parts(Arc::clone(self.map.grid()).into(), Arc::clone(&self.surface))
+    }
+
     pub(crate) const fn recent(&self) -> &Arc<Recent> {
         &self.recent
     }

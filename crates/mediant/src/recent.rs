@@ -282,7 +282,7 @@ mod on_costs {
         }
 
         fn surface_like(&self, earlier: &Space, places: &[Rectangle]) -> Result<Option<Surface>, Error> {
-            earlier.surface().map(|surface| surface.after(self.clone(), places)).transpose()
+            earlier.surface().map(|surface| surface.after(self, places)).transpose()
         }
     }
 

@@ -164,7 +164,7 @@ impl Space {
         let k = motion.k.finite().filter(|k| k.get() <= MAX);
         let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
         let graph = Arc::new(CostGraph::new(Arc::clone(costs.surface()), motion.rules, k)?);
-        let surface = Surface { costs: costs.clone(), graph };
+        let surface = Surface { costs: costs.alone(), graph };
         Self::searched(costs.map(), (Some(surface), None), motion, interrupt)
     }
 

@@ -47,7 +47,7 @@ mod given {
 
     impl Surface {
         /// The same rules and k on other costs, which differ in these places.
-        pub(crate) fn after(&self, costs: Costs, places: &[Rectangle]) -> Result<Self, Error> {
+        pub(crate) fn after(&self, costs: &Costs, places: &[Rectangle]) -> Result<Self, Error> {
             let rows = |at: &Rectangle| at.y..at.y + at.height;
             let cells = places.iter().flat_map(|at| {
                 let columns = at.x..at.x + at.width;
@@ -55,7 +55,7 @@ mod given {
             });
             let cells: Vec<_> = cells.collect();
             let graph = Arc::new(self.graph.after(Arc::clone(costs.surface()), &cells)?);
-            Ok(Self { costs, graph })
+            Ok(Self { costs: costs.alone(), graph })
         }
     }
 

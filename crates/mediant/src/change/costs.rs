@@ -54,7 +54,7 @@ impl Change {
         let places: Vec<_> = cells.iter().map(|&(x, y, _)| Rectangle::new(x, y, 1, 1)).collect();
         self.change = self.change.edit_cells(cells.into_iter().map(|(x, y, cost)| (x, y, cost.is_none())));
         let map = Arc::clone(self.change.after()).into();
-        self.surface = Some(surface.after(Costs::of_parts(map, edited), &places)?);
+        self.surface = Some(surface.after(&Costs::of_parts(map, edited), &places)?);
         self.with_costs.extend(places);
         self.after.take();
         Ok(self)

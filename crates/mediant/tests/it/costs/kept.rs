@@ -1,5 +1,7 @@
 //! The spaces and planners that costs keep, over edits.
 
+use std::sync::Arc;
+
 use mediant::{
     Ends, Engine, Error, ErrorCode, Ground, Limits, Map, Motion, Query, Rectangle,
     call::{Call, Group, Parameter, Spelling, Value},
@@ -56,6 +58,22 @@ fn kept_planners_of_costs_follow_edits() {
         }
     }
     assert!(searched > 200, "only {searched}");
+}
+
+#[test]
+fn costs_that_keep_spaces_give_their_memory_back() {
+    let first = costs();
+    let setup = first.setup(&call(&[])).expect("k = 3");
+    let second = {
+        first.keep_planners(&setup, Limits::new()).expect("k = 3");
+        first.edit_cells([((2, 2), Some(3.0))]).expect("on the map")
+    };
+    second.keep_planners(&setup, Limits::new()).expect("k = 3");
+    let surfaces = [&first, &second].map(|costs| Arc::downgrade(costs.surface()));
+    drop(first);
+    assert!(surfaces[1].upgrade().is_some());
+    drop(second);
+    assert!(surfaces.iter().all(|surface| surface.upgrade().is_none()));
 }
 
 #[test]
