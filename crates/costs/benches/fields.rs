@@ -1,5 +1,5 @@
-//! Fields after edits, repaired and made anew. `cargo bench -p mediant-costs --bench fields` writes the figures
-//! of `docs/measurements/costs.md`; `-- 512 3` those of one side and one k.
+//! Fields after edits, repaired and made anew. `cargo bench -p mediant-costs --bench fields` writes the
+//! figures of `docs/measurements/costs.md`; `-- 512 3` those of one side and one k.
 #![allow(clippy::print_stdout, reason = "a program talks to its user")]
 #![allow(clippy::unwrap_used, reason = "a measurement may fail")]
 
@@ -14,8 +14,8 @@ const SURFACES: [Surface; 5] =
     [Surface::Friction, Surface::Elevation, Surface::Patches, Surface::Rooms, Surface::Walls];
 const EDITS: usize = 200;
 
-/// One random cell after the other gets a random cost of the surface, or is blocked as some are. The source is
-/// the free vertex that is nearest to the middle in its row.
+/// One random cell after the other gets a random cost of the surface, or is blocked as some are. The source
+/// is the free vertex that is nearest to the middle in its row.
 fn edits(surface: Surface, side: u32, k: u32) {
     let mut rng = Rng::new(u64::from(side));
     let cells = surface.costs(side, &mut rng);

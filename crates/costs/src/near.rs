@@ -1,4 +1,4 @@
-//! What depends on cells: the ends of the moves that read them.
+//! The ends of the moves that depend on cells.
 
 use crate::graph::CostGraph;
 

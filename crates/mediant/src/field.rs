@@ -247,11 +247,11 @@ use of_each;
 
 impl Field {
     /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
-    /// last bit. Over N(k) the work follows the vertices whose distance, or cost, changes. Where these are many
-    /// it is made anew, and so it is at any angle, unless no path in it comes near the change; where costs
-    /// leave the [bounds](crate::Costs::bounds) of the map, or closed gaps come or go between cells of costs;
-    /// and over elevation. This field stays as it is; the next repair takes its memory, if it is given up by
-    /// then.
+    /// last bit. Over N(k) the work follows the vertices whose distance, or cost, changes. Where these are
+    /// many it is made anew, and so it is at any angle, unless no path in it comes near the change; where
+    /// costs leave the [bounds](crate::Costs::bounds) of the map, or closed gaps come or go between cells of
+    /// costs; and over elevation. This field stays as it is; the next repair takes its memory, if it is given
+    /// up by then.
     ///
     /// ```
     /// use mediant::{Map, Motion};
@@ -362,9 +362,9 @@ impl Field {
     /// ```
     /// use mediant::{Map, Motion};
     ///
-    /// let space = Map::new(5, 3)?.costs([1, 1, 1, 1, 1, 4, 4, 4, 4, 4, 9, 9, 9, 9, 9])?.space(Motion::centers(2))?;
-    /// let corridor = space.field([(0, 0)])?.corridor(&space.field([(4, 0)])?)?;
-    /// assert_eq!([corridor[2], corridor[7]], [4.0, 4.0 + 2.0 * 2.5]);
+    /// let space = Map::new(5, 3)?.costs([1, 1, 1, 1, 1, 4, 4, 4, 4, 4, 9, 9, 9, 9,
+    /// 9])?.space(Motion::centers(2))?; let corridor = space.field([(0, 0)])?.corridor(&space.field([(4,
+    /// 0)])?)?; assert_eq!([corridor[2], corridor[7]], [4.0, 4.0 + 2.0 * 2.5]);
     /// # Ok::<(), mediant::Error>(())
     /// ```
     ///

@@ -1,27 +1,27 @@
 //! Fields that follow an edit of their surface.
 //!
-//! A field is the least costs that satisfy all moves, and costs are integers. So whatever finds them finds the
-//! same ones. A move and its reverse cost the same. Two passes, each in the order of costs:
+//! A field is the least costs that satisfy all moves, and costs are integers. So whatever finds them finds
+//! the same ones. A move and its reverse cost the same. Two passes, each in the order of costs:
 //!
-//! 1. **Raising.** A state *is supported* if it is a source, or if a move leads to it from a state that is not
-//!    raised, whose cost and that of the move are together no more than its own. The states near the changed
-//!    cells that are not supported are raised: they have no cost any more. Then follow those that had no other
-//!    support than raised ones. A support costs less than what it supports, so a state is looked at after all
-//!    that may support it. Along supports a path leads from a source to each state that is not raised: it
-//!    costs no more than the state, whose old cost is not too small.
+//! 1. **Raising.** A state *is supported* if it is a source, or if a move leads to it from a state that is
+//!    not raised, whose cost and that of the move are together no more than its own. The states near the
+//!    changed cells that are not supported are raised: they have no cost any more. Then follow those that had
+//!    no other support than raised ones. A support costs less than what it supports, so a state is looked at
+//!    after all that may support it. Along supports a path leads from a source to each state that is not
+//!    raised: it costs no more than the state, whose old cost is not too small.
 //! 2. **Lowering.** Dijkstra's algorithm from the raised states and those near the changed cells, as far as a
 //!    neighbor makes them cheaper. What it ends with is too small nowhere, and no move makes it smaller:
 //!    elsewhere the old costs were so already. These are the least costs. ∎
 //!
-//! *Near* a cell are the ends of all moves that depend on it. Moves become dearer only by cells that cost more,
-//! or are blocked: near these states are raised. By the others moves become cheaper.
+//! *Near* a cell are the ends of all moves that depend on it. Moves become dearer only by cells that cost
+//! more, or are blocked: near these states are raised. By the others moves become cheaper.
 //!
 //! **Allocation.** With it a label is a cost and the number of a source, and the lesser of two labels is that
 //! of the lesser cost, then of the lesser number. A move adds to the cost alone. All of the above holds for
 //! these labels.
 //!
-//! A state takes several times as long as in a new field, whose queue is made of buckets. So a repair gives up
-//! once it has looked at more than a small part of the states.
+//! A state takes several times as long as in a new field, whose queue is made of buckets. So a repair gives
+//! up once it has looked at more than a small part of the states.
 
 use std::{cmp::Reverse, collections::BinaryHeap, sync::Arc};
 
@@ -48,8 +48,8 @@ impl CostField {
     /// The field of the same sources and limit on the surface after an edit: to the last bit the one made
     /// anew. `cells` are the cells that changed, and others as one likes. The work follows the vertices whose
     /// cost changes. `None` where it is quicker to make it [anew](Self::new): where they are many, where the
-    /// surface has other units, and where closed gaps came or went. This field stays as it is; the next repair
-    /// takes its memory, if it is given up by then.
+    /// surface has other units, and where closed gaps came or went. This field stays as it is; the next
+    /// repair takes its memory, if it is given up by then.
     ///
     /// ```
     /// use std::sync::Arc;
@@ -125,7 +125,7 @@ impl CostField {
     }
 }
 
-/// What changed. Gaps that stay gaps but turn have cells around them that rose, and others that fell.
+/// The change. Gaps that stay gaps but turn have cells around them that rose, and others that fell.
 struct Near {
     /// Cells that are now blocked, by position.
     blocked: Vec<usize>,
@@ -159,7 +159,7 @@ fn near(before: &CostGraph, after: &CostGraph, cells: &[(u32, u32)]) -> Option<N
 /// A cost and the number of a source, which is 0 without allocation.
 type Label = (u64, u32);
 
-/// What a scan is for.
+/// The purpose of a scan.
 #[derive(Clone, Copy)]
 enum Ask {
     /// The least label that a move leads to, if it is at most this one, and whether there is any.

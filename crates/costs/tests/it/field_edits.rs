@@ -19,7 +19,8 @@ fn gap(map: &CostSurface, is_turned: bool) -> Edit {
     vec![(left, above, one), (x, above, other), (left, y, other), (x, y, one)]
 }
 
-/// Costs that rise and fall, walls and cells that are freed, edits of nothing, and seldom one beyond the bounds.
+/// Costs that rise and fall, walls and cells that are freed, edits of nothing, and seldom one beyond the
+/// bounds.
 fn random_edit(map: &CostSurface, rng: &mut Rng) -> Edit {
     if rng.chance(25) {
         return gap(map, rng.chance(50));

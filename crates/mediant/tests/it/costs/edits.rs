@@ -26,8 +26,7 @@ fn what_was_prepared_follows_edits_of_costs() {
         let world = World::new(seed);
         let motion = world.space.motion();
         let mut rng = Rng::new(seed);
-        let mut costs = world.costs.clone();
-        let mut space = world.space.clone();
+        let (mut costs, mut space) = (world.costs.clone(), world.space.clone());
         let mut planners = world.all_planners();
         let sources = world.free(&mut rng, 2);
         let mut field = world.space.field(sources.clone()).expect("the sources are free");
