@@ -256,7 +256,8 @@ mod tests {
     fn every_engine_takes_part() {
         let parsed: Vec<Setup> = setups().map(|(_, setup)| setup.parse().unwrap()).collect();
         assert!(parsed.iter().all(|setup| setup.check().is_ok()));
-        for engine in Engine::ALL {
+        // Landmarks are for costs, and measured there: `cargo xtask compare --costs`.
+        for engine in Engine::ALL.into_iter().filter(|&engine| engine != Engine::Landmarks) {
             assert!(parsed.iter().any(|setup| setup.engine.kind() == engine), "{engine}");
         }
         for ((placement, setup), parsed) in setups().zip(&parsed) {

@@ -67,10 +67,11 @@ fn check(setup: Setup, planner: &mut Planner, queries: &[Ends]) {
 /// Checks every setup of the catalog whose engine is in this crate, but for those that smooth their paths:
 /// smoothing allocates. How many there were.
 fn check_all(k: K, rules: Rules) -> usize {
-    use Engine::{Chpa, Hpa, Subgoal, SubgoalTheta};
+    use Engine::{Chpa, Hpa, Landmarks, Subgoal, SubgoalTheta};
     let grid = Arc::new(mediant_oracle::caves(&mut mediant_oracle::Rng::new(7), 60, 50));
     let queries = queries(&grid, rules.placement());
-    let is_here = |setup: &Setup| !matches!(setup.engine.kind(), Subgoal | SubgoalTheta | Hpa | Chpa);
+    let is_here =
+        |setup: &Setup| !matches!(setup.engine.kind(), Subgoal | SubgoalTheta | Hpa | Chpa | Landmarks);
     let setups = Setup::all(Motion::new(k, rules)).filter(is_here).filter(|setup| setup.smoothing.is_none());
     setups
         .inspect(|&setup| {
