@@ -59,71 +59,49 @@ impl Index {
     }
 }
 
+/// Defines how a map, and costs of its cells, read an index, of whose motion this makes the space.
+macro_rules! reads_indexes {
+    ($space:expr) => {
+        /// Reads an index that [`Index::save`] wrote for an equal one, and makes its space: the file says which
+        /// rules and k it is for.
+        ///
+        /// # Errors
+        /// As for [`Space::load`].
+        pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
+            self.load_index(path.as_ref(), &NEVER)
+        }
+
+        pub(crate) fn load_index(&self, path: &FilePath, interrupt: &Interrupt) -> Result<Index, Error> {
+            let file = IndexFile::read_interruptible(path, interrupt)?;
+            self.index(&file, interrupt).map_err(|error| error.in_file(path))
+        }
+
+        /// The index that [`Index::to_bytes`] wrote for an equal one, as [`load`](Self::load) reads it from a
+        /// file.
+        ///
+        /// # Errors
+        /// As for [`Space::index_from_bytes`].
+        pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
+            self.read_index(bytes, &NEVER)
+        }
+
+        pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
+            self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, interrupt)
+        }
+
+        fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
+            $space(self, motion_of(file), interrupt)?.index(file, None, interrupt)
+        }
+    };
+}
+
 impl Map {
-    /// Reads an index that [`Index::save`] wrote for the same map, and makes its space: the file says which
-    /// rules and k it is for.
-    ///
-    /// # Errors
-    /// As for [`Space::load`].
-    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
-        self.load_index(path.as_ref(), &NEVER)
-    }
-
-    pub(crate) fn load_index(&self, path: &FilePath, interrupt: &Interrupt) -> Result<Index, Error> {
-        let file = IndexFile::read_interruptible(path, interrupt)?;
-        self.index(&file, interrupt).map_err(|error| error.in_file(path))
-    }
-
-    /// The index that [`Index::to_bytes`] wrote for the same map, as [`load`](Self::load) reads it from a
-    /// file.
-    ///
-    /// # Errors
-    /// As for [`Space::index_from_bytes`].
-    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
-        self.read_index(bytes, &NEVER)
-    }
-
-    pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
-        self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, interrupt)
-    }
-
-    fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
-        Space::new(self, motion_of(file), interrupt)?.index(file, None, interrupt)
-    }
+    reads_indexes!(Space::new);
 }
 
 #[cfg(feature = "costs")]
 impl Costs {
-    /// Reads an index that [`Index::save`] wrote for the same costs, and makes its space: the file says which
-    /// rules and k it is for.
-    ///
-    /// # Errors
-    /// As for [`Space::load`].
-    pub fn load(&self, path: impl AsRef<FilePath>) -> Result<Index, Error> {
-        self.load_index(path.as_ref(), &NEVER)
-    }
-
-    pub(crate) fn load_index(&self, path: &FilePath, interrupt: &Interrupt) -> Result<Index, Error> {
-        let file = IndexFile::read_interruptible(path, interrupt)?;
-        self.index(&file, interrupt).map_err(|error| error.in_file(path))
-    }
-
-    /// The index that [`Index::to_bytes`] wrote for the same costs, as [`load`](Self::load) reads it from a
-    /// file.
-    ///
-    /// # Errors
-    /// As for [`Space::index_from_bytes`].
-    pub fn index_from_bytes(&self, bytes: Vec<u8>) -> Result<Index, Error> {
-        self.read_index(bytes, &NEVER)
-    }
-
-    pub(crate) fn read_index(&self, bytes: Vec<u8>, interrupt: &Interrupt) -> Result<Index, Error> {
-        self.index(&IndexFile::from_bytes_interruptible(bytes, interrupt)?, interrupt)
-    }
-
-    fn index(&self, file: &IndexFile, interrupt: &Interrupt) -> Result<Index, Error> {
-        Space::of_costs(self, motion_of(file), interrupt)?.index(file, None, interrupt)
-    }
+    reads_indexes!(Space::of_costs);
 }
 
 /// The motion that a file's index is for. No engine saves an index for every k: whichever k is taken then,
