@@ -62,8 +62,8 @@ impl Index {
 /// Defines how a map, and costs of its cells, read an index, of whose motion this makes the space.
 macro_rules! reads_indexes {
     ($space:expr) => {
-        /// Reads an index that [`Index::save`] wrote for an equal one, and makes its space: the file says which
-        /// rules and k it is for.
+        /// Reads an index that [`Index::save`] wrote for an equal one, and makes its space: the file says
+        /// which rules and k it is for.
         ///
         /// # Errors
         /// As for [`Space::load`].
