@@ -355,7 +355,7 @@ fn what_needs_no_map() {
     let bound = mediant_web::bound(&json(r#"{"k": 3, "placement": "corner"}"#)).expect("a bound");
     assert!(bound.is_some_and(|bound| (bound - 1.0824).abs() < 1e-4));
     let engines = Array::from(&mediant_web::engines());
-    assert_eq!(engines.length(), 14);
+    assert_eq!(engines.length(), 15);
     let theta = engines.iter().find(|engine| get(engine, "name") == "theta").expect("theta");
     assert_eq!(Array::from(&get(&theta, "options")).join(","), "heuristic,smooth");
     let check = |engine: &str, motion: &str| {
