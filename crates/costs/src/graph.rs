@@ -51,7 +51,8 @@ impl CostGraph {
     /// The search graph of a surface under some rules and N(k).
     ///
     /// # Errors
-    /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K).
+    /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K); [`CostsError::Size`] for so many closed gaps on a map
+    /// of nearly 2³² cells that they have no numbers.
     pub fn new(map: Arc<CostSurface>, rules: Rules, k: FiniteK) -> Result<Self, CostsError> {
         let too_large = CostsError::K { k, max: Self::MAX_K };
         if k.get() > Self::MAX_K {
@@ -62,7 +63,13 @@ impl CostGraph {
         let steps = Steps::new(map.layout());
         let gaps = if is_closed(rules) { Gaps::of(&map, &steps) } else { Gaps::default() };
         let scanner = Scanner::new(moves, steps, gaps, rules);
-        Ok(Self { map, k, scanner, least })
+        Self { map, k, scanner, least }.with_numbers()
+    }
+
+    /// This graph, if all of its states have numbers of 32 bits.
+    fn with_numbers(self) -> Result<Self, CostsError> {
+        let (width, height) = (self.map.width().into(), self.map.height().into());
+        if self.states() as u64 > 1 << 32 { Err(CostsError::Size { width, height }) } else { Ok(self) }
     }
 
     /// The search graph of another surface under the same rules and k: that after an edit, which changed
@@ -70,7 +77,7 @@ impl CostGraph {
     /// looked for around the cells alone. Cells outside the map are left out.
     ///
     /// # Errors
-    /// None that this graph can have.
+    /// [`CostsError::Size`] as for [`new`](Self::new).
     pub fn after(&self, map: Arc<CostSurface>, cells: &[(u32, u32)]) -> Result<Self, CostsError> {
         if map.scale() != self.map.scale() || map.layout() != self.map.layout() {
             return Self::new(map, self.rules(), self.k);
@@ -82,7 +89,7 @@ impl CostGraph {
             after.scanner.gaps = self.scanner.gaps.after(&map, &after.scanner.steps, &cells);
         }
         after.map = map;
-        Ok(after)
+        after.with_numbers()
     }
 
     /// The surface.

@@ -179,6 +179,14 @@ impl CostSurface {
         Self::filled(layout, scale, interrupt, |x, y| weights[usize::from(bytes[index(x, y)])])
     }
 
+    /// Checks that a surface may have these sides; nothing is allocated.
+    ///
+    /// # Errors
+    /// [`CostsError::Size`] if not.
+    pub fn check_size(width: u32, height: u32) -> Result<(), CostsError> {
+        Self::layout_of(width, height).map(drop)
+    }
+
     fn layout_of(width: u32, height: u32) -> Result<Layout, CostsError> {
         let (width, height) = (width.into(), height.into());
         Layout::new(width, height).ok_or(CostsError::Size { width, height })

@@ -1,6 +1,7 @@
 //! The map: which cells are blocked.
 
 mod edit;
+mod long;
 
 pub(crate) use self::edit::GridEdit;
 use crate::{
@@ -44,6 +45,19 @@ pub enum GridError {
         /// The height that was asked for.
         height: u64,
     },
+    /// A side of a [long](Grid::long) map is 0 or longer than [`Grid::MAX_LONG_SIDE`], or it has more cells
+    /// than bits have numbers.
+    #[error(
+        "a map of {width} columns and {height} rows: where cells have costs, each side must have 1 to {max} cells, \
+         and both together about 4.2 billion at most, a frame included; cut the map, or take larger cells",
+        max = Grid::MAX_LONG_SIDE
+    )]
+    LongSize {
+        /// The width that was asked for.
+        width: u64,
+        /// The height that was asked for.
+        height: u64,
+    },
     /// The rows of a map differ in length.
     #[error("row {row} of the map has {found} cells, the first row has {expected}: make all rows as long")]
     Ragged {
@@ -61,7 +75,8 @@ pub enum GridError {
 
 impl Grid {
     /// The longest side, in cells. Up to here the vertex numbers of both placements and all bit positions fit
-    /// in 32 bits. (The largest maps need more memory than a 32-bit target has.)
+    /// in 32 bits, and so does the arithmetic of sight and clearance. (The largest maps need more memory than
+    /// a 32-bit target has.) [Long](Self::long) maps, which are for costs of cells, have longer sides.
     pub const MAX_SIDE: u32 = 32_768;
 
     /// A map of `width` × `height` cells; `blocked(x, y)` is asked once for each, row by row.

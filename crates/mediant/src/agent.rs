@@ -37,6 +37,7 @@ impl Map {
     pub fn for_disc(&self, radius: f64, motion: impl Into<Motion>) -> Result<Self, Error> {
         let motion = motion.into();
         motion.check_k()?;
+        self.check_sides("clearance")?;
         let fit = Fit::exact(motion.rules, motion.k);
         Ok(self.clearance(fit, Outside::Blocked).for_disc(radius)?.into())
     }
@@ -56,8 +57,9 @@ impl Map {
     /// [`Grid::for_square`](mediant_grid::Grid::for_square) states the guarantees for the moving square.
     ///
     /// # Errors
-    /// [`Error::Size`] for n = 0.
+    /// [`Error::Size`] for n = 0; [`SetupError::LongSide`] for a map that is for costs alone.
     pub fn for_square(&self, n: u32) -> Result<Self, Error> {
+        self.check_sides("clearance")?;
         Ok(self.grid().for_square(n)?.into())
     }
 
@@ -71,10 +73,11 @@ impl Map {
     }
 
     /// The distance of each cell to the nearest obstacle, and the maps of discs of all radii. After an edit
-    /// of the map it follows by [`Clearance::after`].
+    /// of the map it follows by [`Clearance::after`]. On a map with sides beyond
+    /// [`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE), which is for costs alone, nothing fits anywhere.
     #[must_use]
     pub fn clearance(&self, fit: Fit, outside: Outside) -> Clearance {
-        Clearance::new(Arc::clone(self.grid()), fit, outside)
+        self.clearance_or_none(fit, outside)
     }
 }
 

@@ -139,7 +139,7 @@ impl Error {
     #[must_use]
     pub fn code(&self) -> ErrorCode {
         match self {
-            Self::Grid(GridError::Size { .. }) => ErrorCode::MapSize,
+            Self::Grid(GridError::Size { .. } | GridError::LongSize { .. }) => ErrorCode::MapSize,
             Self::Grid(GridError::Ragged { .. }) => ErrorCode::MapRagged,
             Self::Tile(_) | Self::Tiles(_) => ErrorCode::MapTile,
             Self::Edit { .. } | Self::EditCell { .. } => ErrorCode::EditOutside,
@@ -162,7 +162,7 @@ impl Error {
             Self::IndexFile(error) => of_index(error),
             Self::Read(error) => of_read(error),
             Self::Write(_) => ErrorCode::FileUnwritable,
-            Self::OutOfMemory { .. } => ErrorCode::Memory,
+            Self::OutOfMemory { .. } | Self::NoRoom { .. } => ErrorCode::Memory,
             Self::Stopped { by: Limit::Cancelled, .. } => ErrorCode::Cancelled,
             Self::Stopped { .. } => ErrorCode::Stopped,
             Self::Call(error) => of_call(error),
@@ -233,6 +233,7 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::OtherPlanner { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
         SetupError::Motion { .. } | SetupError::CostsK { .. } => ErrorCode::Motion,
+        SetupError::LongSide { .. } => ErrorCode::MapSize,
         SetupError::WithoutCosts => ErrorCode::Cost,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,
         SetupError::Placement { .. } | SetupError::Centers { .. } => ErrorCode::EngineRules,

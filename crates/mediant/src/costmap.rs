@@ -260,8 +260,8 @@ impl Costs {
     pub(crate) fn of_surface(surface: CostSurface, interrupt: &Interrupt) -> Result<Self, Error> {
         let is_blocked = |x: u32, y: u32| surface.is_blocked(x as i32, y as i32);
         let (width, height) = (surface.width(), surface.height());
-        let grid = Grid::from_fn_interruptible(width, height, interrupt, is_blocked)?;
-        Ok(Self::of_parts(grid.into(), Arc::new(surface)))
+        let map = Map::long((width, height), interrupt, is_blocked)?;
+        Ok(Self::of_parts(map, Arc::new(surface)))
     }
 }
 

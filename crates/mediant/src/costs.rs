@@ -68,6 +68,45 @@ impl Map {
 }
 
 impl Costs {
+    /// The costs of `width` × `height` cells of size 1 × 1, for which `cost(x, y)` is the cost of a cell, or
+    /// `None` for a blocked one. It is asked twice for each.
+    ///
+    /// Sides may have up to [`CostSurface::MAX_SIDE`] cells, 2²⁰, as those of rasters may. If one is longer
+    /// than [`Grid::MAX_SIDE`], there are A*, Dijkstra's algorithm, landmarks and fields on the costs, with
+    /// all that paths and edits have; other engines, smoothing, and what there is on the [map](Self::map)
+    /// without its costs say that they take no such sides.
+    ///
+    /// ```
+    /// use mediant::{Costs, Map, Motion};
+    ///
+    /// // A pipeline along a strip of land.
+    /// let strip = Costs::from_fn(100_000, 2, |x, y| (x % 1000 != 7 || y == 0).then_some(2.0))?;
+    /// let field = strip.space(Motion::centers(4))?.field([(0, 0)])?;
+    /// assert_eq!(field.get((99_999, 0)), Some(199_998.0));
+    /// assert!(strip.map().path((0, 0), (9, 0)).is_err());
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Grid`] and [`Error::Costs`] for a side of 0, longer sides, and more cells than about 4.2
+    /// billion, [`Error::NoRoom`] for more than there is memory, both before anything is allocated;
+    /// [`Error::Costs`] as for [`Map::costs`].
+    pub fn from_fn(width: u32, height: u32, cost: impl Fn(u32, u32) -> Option<f64>) -> Result<Self, Error> {
+        Self::check_size(width, height)?;
+        Self::of_surface(CostSurface::from_fn(width, height, cost)?, &NEVER)
+    }
+
+    /// Checks that there can be costs of so many cells, and that there is room for them: before the numbers
+    /// of a file are read, say.
+    ///
+    /// # Errors
+    /// [`Error::Grid`], [`Error::Costs`] or [`Error::NoRoom`] if not, as for [`from_fn`](Self::from_fn).
+    pub fn check_size(width: u32, height: u32) -> Result<(), Error> {
+        Grid::check_long_size(width.into(), height.into())?;
+        CostSurface::check_size(width, height)?;
+        memory_check::check_cells((width, height), BYTES_KEPT)
+    }
+
     pub(crate) fn new<C: Into<f64>>(
         map: &Map,
         costs: impl IntoIterator<Item = C>,
@@ -267,6 +306,9 @@ pub(crate) fn newly_blocked(grid: &Grid, cells: Vec<(u32, u32, bool)>) -> Result
 
 /// The bytes of a cell while costs are read.
 const BYTES: u64 = (size_of::<f64>() + size_of::<u32>()) as u64;
+
+/// The bytes of a cell that are kept: its cost, twice its bit, and what the connected components take.
+const BYTES_KEPT: u64 = size_of::<u32>() as u64 + 1;
 
 /// Costs with the same cells, costs and bounds are one.
 impl PartialEq for Costs {

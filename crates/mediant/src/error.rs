@@ -221,6 +221,18 @@ pub enum Error {
         /// How much it needs, in bytes.
         bytes: u64,
     },
+    /// Numbers of cells for which there is no memory.
+    #[error(
+        "there is no room for the numbers of {} × {} cells, which take {} MB: cut the raster, take larger cells, or \
+         free some memory",
+        size.0, size.1, .bytes.div_ceil(1_000_000)
+    )]
+    NoRoom {
+        /// The columns and the rows.
+        size: (u32, u32),
+        /// How much they need, in bytes.
+        bytes: u64,
+    },
     /// Bytes that are no saved index, or one of another engine or version.
     #[error(transparent)]
     IndexFile(IndexError),

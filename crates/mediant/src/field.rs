@@ -122,6 +122,7 @@ impl Space {
         if let Some(walk) = self.walk() {
             return Ok(Fields { inner: Makers::Walking(Arc::clone(&walk.graph)) });
         }
+        self.map().check_sides("a field without costs")?;
         let inner = match (self.placed(), self.motion().k.finite()) {
             (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), Some(k)) => Makers::Corners(fields_over(layers, k, interrupt)?),
@@ -282,6 +283,9 @@ impl Field {
         if change.before().has_costs() != after.has_costs() {
             let other = "the space after the change";
             return Err(Mismatch { other, other_belongs_to: after.identity(), ..mismatch }.into());
+        }
+        if !after.has_costs() {
+            after.map().check_sides("a field without costs")?;
         }
         let is_of_the_same_size = before.map.map(MapId::size) == after.identity().map.map(MapId::size);
         let cells = is_of_the_same_size.then(|| change.of_grid());

@@ -146,8 +146,10 @@
 //! # Ok::<(), mediant::Error>(())
 //! ```
 //!
-//! Rasters of numbers are read by `Costs::open`. For a robot [`Map::inflated`] puts costs around obstacles,
-//! as nav2 does, and `Map::walking` walks over elevation, in seconds that differ with the direction.
+//! Rasters of numbers are read by `Costs::open`. Sides of costs may have up to 2²⁰ cells
+//! ([`Costs::from_fn`]), those of other maps 32,768. For a robot [`Map::inflated`] puts costs around
+//! obstacles, as nav2 does, and `Map::walking` walks over elevation, in seconds that differ with the
+//! direction.
 //!
 //! ```
 //! use mediant::{Inflation, Map, Motion};
@@ -252,6 +254,7 @@ mod heuristic;
 mod index;
 mod labeled;
 mod limits;
+mod long;
 mod map;
 mod memory_check;
 mod motion;

@@ -3,8 +3,10 @@
 use std::path::Path as FilePath;
 
 use mediant_costs::CostsError;
-use mediant_formats::{Georeference, Surface, SurfaceOptions, read_surface, read_surface_interruptible};
-use mediant_grid::{Grid, Interrupt};
+use mediant_formats::{
+    Georeference, Surface, SurfaceOptions, read_surface, read_surface_interruptible, surface_size,
+};
+use mediant_grid::Interrupt;
 use mediant_search::Limits;
 
 use crate::{costs::Costs, error::Error, map::Map, never::NEVER, within::Within};
@@ -28,7 +30,8 @@ impl Costs {
     ///
     /// # Errors
     /// [`Error::Read`] for a file that is missing, cannot be read, or is no such raster. [`Error::InFile`]
-    /// with the errors of [`Map::costs_of`] inside.
+    /// with the errors of [`Map::costs_of`] inside, and with those of [`Costs::check_size`], which the header
+    /// of the file is checked by.
     pub fn open(path: impl AsRef<FilePath>) -> Result<Self, Error> {
         Ok(Self::open_with(path, &SurfaceOptions::default())?.0)
     }
@@ -43,6 +46,7 @@ impl Costs {
         options: &SurfaceOptions,
     ) -> Result<(Self, Georeference), Error> {
         let path = path.as_ref();
+        check_header(path)?;
         let surface = read_surface(path, options)?;
         let costs = Self::from_surface(&surface).map_err(|error| error.in_file(path))?;
         Ok((costs, surface.georeference().clone()))
@@ -59,6 +63,7 @@ impl Costs {
         limits: impl Into<Limits>,
     ) -> Result<(Self, Georeference), Error> {
         let (path, limits) = (path.as_ref(), limits.into());
+        check_header(path)?;
         let surface = read_surface_interruptible(path, options, limits.interrupt())?;
         let map = Map::with_data(&surface)?;
         let costs = map.within(limits).costs_of(&surface).map_err(|error| error.in_file(path))?;
@@ -75,14 +80,16 @@ impl Costs {
 }
 
 impl Map {
-    /// The map of a raster: cells without data are blocked.
+    /// The map of a raster: cells without data are blocked. Where a side is longer than
+    /// [`Grid::MAX_SIDE`](mediant_grid::Grid::MAX_SIDE), it is for [costs](Self::costs_of) alone.
     ///
     /// # Errors
-    /// [`Error::Grid`] for sides that no map has.
+    /// [`Error::Grid`] and [`Error::NoRoom`] for more cells than [costs](Costs::from_fn) can have.
     pub fn with_data(surface: &Surface) -> Result<Self, Error> {
+        Costs::check_size(surface.width(), surface.height())?;
         let mut has_data = surface.iter().map(|number| number.is_some());
         let is_blocked = |_, _| !has_data.next().unwrap_or(false);
-        Ok(Grid::from_fn(surface.width(), surface.height(), is_blocked)?.into())
+        Self::long((surface.width(), surface.height()), &NEVER, is_blocked)
     }
 
     /// This map with the costs of a raster of the same size. Cells are blocked that are blocked here or have
@@ -121,8 +128,14 @@ impl Map {
             let is_known = has_data.next().unwrap_or(false);
             !is_known || self.grid().is_blocked(x as i32, y as i32)
         };
-        Ok((Grid::from_fn(found.0, found.1, is_blocked)?.into(), surface.cell_size()))
+        Ok((Self::long(found, &NEVER, is_blocked)?, surface.cell_size()))
     }
+}
+
+/// Checks that there can be the costs whose sides the header of a file states, before they are read.
+fn check_header(path: &FilePath) -> Result<(), Error> {
+    let (width, height) = surface_size(path)?;
+    Costs::check_size(width, height).map_err(|error| error.in_file(path))
 }
 
 fn costs_unless(map: &Map, surface: &Surface, interrupt: &Interrupt) -> Result<Costs, Error> {
@@ -181,6 +194,7 @@ mod walking {
         /// [`Error::InFile`] with the errors of [`Map::walking_of`] inside.
         pub fn open(path: impl AsRef<FilePath>, pace: &Pace) -> Result<(Self, Georeference), Error> {
             let path = path.as_ref();
+            super::check_header(path)?;
             let surface = read_surface(path, &SurfaceOptions::default())?;
             let walking = Map::with_data(&surface).and_then(|map| map.walking_of(&surface, None, pace));
             Ok((walking.map_err(|error| error.in_file(path))?, surface.georeference().clone()))

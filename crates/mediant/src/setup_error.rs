@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{PlacementKind, Rules};
+use mediant_grid::{Grid, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
 
 use crate::{engine::Engine, motion::Motion, option::Levels};
@@ -169,6 +169,20 @@ pub enum SetupError {
     WithCosts {
         /// The missing thing.
         what: &'static str,
+        /// The way out.
+        instead: &'static str,
+    },
+    /// Something that takes no map with so long a side.
+    #[error(
+        "{what} needs sides of at most {max} cells, up to which 32 bits hold its numbers, and the map has {} columns \
+         and {} rows: {instead}",
+        size.0, size.1, max = Grid::MAX_SIDE
+    )]
+    LongSide {
+        /// The thing, such as an engine.
+        what: &'static str,
+        /// The width and the height of the map.
+        size: (u32, u32),
         /// The way out.
         instead: &'static str,
     },

@@ -143,7 +143,7 @@ impl Map {
     ///
     /// # Errors
     /// [`Error::K`] for a number that is no k; [`SetupError::Motion`] where no engine searches: at k above
-    /// 12, and between centers at any angle.
+    /// 12, and between centers at any angle; [`SetupError::LongSide`] for a map that is for costs alone.
     pub fn space(&self, motion: impl Into<Motion>) -> Result<Space, Error> {
         Space::new(self, motion.into(), &NEVER)
     }
@@ -153,6 +153,7 @@ impl Space {
     /// A map with rules of motion and a k.
     pub(crate) fn new(map: &Map, motion: Motion, interrupt: &Interrupt) -> Result<Self, Error> {
         motion.check()?;
+        map.check_sides("a space without costs")?;
         Self::searched(map, (None, None), motion, interrupt)
     }
 

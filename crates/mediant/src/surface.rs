@@ -214,7 +214,8 @@ impl Space {
                 return Err(SetupError::SMOOTHING_OVER_ELEVATION);
             }
         }
-        setup.check()
+        setup.check()?;
+        self.check_sides(setup)
     }
 
     /// Refuses edits where cells have elevations.

@@ -150,8 +150,10 @@ impl Within<'_, Map> {
     /// [`Map::clearance`].
     ///
     /// # Errors
+    /// [`SetupError::LongSide`](crate::errors::SetupError::LongSide) for a map that is for costs alone;
     /// [`Error::Stopped`].
     pub fn clearance(&self, fit: Fit, outside: Outside) -> Result<Clearance, Error> {
+        self.of.check_sides("clearance")?;
         let grid = self.of.grid().clone();
         Ok(Clearance::interruptible(grid, fit, outside, self.limits.interrupt())?)
     }
@@ -172,6 +174,7 @@ impl Within<'_, Map> {
     /// # Errors
     /// As for [`Map::for_square`], and [`Error::Stopped`].
     pub fn for_square(&self, n: u32) -> Result<Map, Error> {
+        self.of.check_sides("clearance")?;
         Ok(self.of.grid().for_square_interruptible(n, self.limits.interrupt())?.into())
     }
 

@@ -91,6 +91,11 @@ fn write(args: &ConvertArgs, form: Form, map: &NamedMap, image: &Path) -> Result
     let path = args.output.as_path();
     let wrong = |source: RosError| Failure::RosMap { path: path.to_owned(), source };
     match form {
+        // Nothing would read it.
+        Form::MovingAi if map.grid.is_long() => {
+            let size = (u64::from(map.grid.width()), u64::from(map.grid.height()));
+            Ok(Grid::check_size(size.0, size.1).map_err(mediant::Error::from)?)
+        }
         // The characters of tiles say nothing of an agent.
         Form::MovingAi if args.map.radius.is_some() => {
             write_file(path, |file| MapFile::from_grid(&map.grid).write(file))

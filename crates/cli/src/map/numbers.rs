@@ -8,7 +8,7 @@ use std::{
 };
 
 use mediant::{Costmap, Costs, Error, Inflation, Motion, Space, Walking};
-use mediant_formats::{Georeference, Surface, SurfaceFormat, SurfaceOptions, read_surface};
+use mediant_formats::{Georeference, Surface, SurfaceFormat, SurfaceOptions, read_surface, surface_size};
 
 use super::NamedMap;
 use crate::{
@@ -26,7 +26,7 @@ pub(crate) struct Raster {
 impl NamedMap {
     /// The map of a raster: cells without data are blocked. Its numbers are nothing yet.
     pub(super) fn of_raster(name: String, path: &Path, band: Option<u16>) -> Result<Self, Failure> {
-        let surface = read(path, band)?;
+        let surface = read_costs(path, band)?;
         let map = mediant::Map::with_data(&surface).map_err(|error| in_file(path, error))?;
         let raster = Some(Raster { path: path.to_owned(), surface: Arc::new(surface) });
         Ok(Self { raster, ..Self::plain(name, Arc::clone(map.grid())) })
@@ -50,7 +50,7 @@ impl NamedMap {
         let Some(elevation) = &walking.elevation else { return self.with_costs(map, costs) };
         let own = self.raster.take();
         let (path, surface) = match (elevation, own) {
-            (Some(path), None) => (path.clone(), Arc::new(read(path, costs.band)?)),
+            (Some(path), None) => (path.clone(), Arc::new(read_costs(path, costs.band)?)),
             (None, Some(Raster { path, surface })) => (path, surface),
             (Some(path), Some(_)) => {
                 let (option, path) = ("--elevation", path.clone());
@@ -70,7 +70,8 @@ impl NamedMap {
             }
             (Some(_), None) => surface,
         };
-        let friction = walking.friction.as_ref().map(|path| Ok::<_, Failure>((path, read(path, None)?)));
+        let friction =
+            walking.friction.as_ref().map(|path| Ok::<_, Failure>((path, read_costs(path, None)?)));
         let friction = friction.transpose()?;
         let (map, pace) = (self.to_library(), walking.pace.pace());
         let plain = map.walking_of(&surface, None, &pace).map_err(|error| in_file(&path, error))?;
@@ -93,7 +94,7 @@ impl NamedMap {
             (Some(path), _) if of_raster => {
                 Err(Failure::TwoNumbers { option: "--costs", path: path.clone(), map: own.name })
             }
-            (Some(path), _) => own.with_surface(path, &read(path, args.band)?),
+            (Some(path), _) => own.with_surface(path, &read_costs(path, args.band)?),
             (None, Some(_)) if of_raster => Err(Failure::NotOnCosts { option: "--inflation-radius" }),
             (None, Some(radius)) => own.inflated(map, &args.inflation, radius),
             (None, None) => Ok(own),
@@ -187,6 +188,13 @@ pub(crate) fn is_surface(path: &Path) -> bool {
 pub(crate) fn read(path: &Path, band: Option<u16>) -> Result<Surface, Failure> {
     let options = SurfaceOptions { band, ..SurfaceOptions::default() };
     Ok(read_surface(path, &options)?)
+}
+
+/// Reads a raster whose numbers become those of a map, unless its header states more than there is room for.
+fn read_costs(path: &Path, band: Option<u16>) -> Result<Surface, Failure> {
+    let (width, height) = surface_size(path)?;
+    Costs::check_size(width, height).map_err(|error| in_file(path, error))?;
+    read(path, band)
 }
 
 /// The error of the numbers in a file.

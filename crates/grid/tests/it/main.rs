@@ -5,6 +5,7 @@ mod clearance;
 mod edits;
 mod interrupts;
 mod legality;
+mod long;
 mod polygon;
 mod rectangle;
 mod segments;

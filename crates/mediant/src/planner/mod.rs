@@ -103,11 +103,12 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::OutOfMemory`] where memory is short; [`Error::Setup`] for taut smoothing where cells have
-    /// costs.
+    /// costs, and for any smoothing on maps with longer sides than it takes.
     pub fn try_planner(&self) -> Result<Planner, Error> {
         if self.setup().smoothing == Some(Smoothing::Taut) {
             self.space().check_is_without_costs(SetupError::TAUT_ON_COSTS)?;
         }
+        self.space().check_sides(&self.setup())?;
         memory_check::check("the planner", self.scratch_bytes())?;
         Ok(self.planner())
     }

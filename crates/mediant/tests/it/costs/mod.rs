@@ -6,6 +6,7 @@ mod edits;
 mod fields;
 mod kept;
 mod landmarks;
+mod long;
 mod queries;
 mod rasters;
 mod refused;
