@@ -49,8 +49,8 @@ export interface Wishes {
   /** The path may end within this many cells of the goal, in a straight line, exactly so many included. */
   readonly tolerance?: number;
   /**
-   * The greatest length of a path, in cells; a path that is exactly as long is within it. An engine that
-   * guarantees nothing may miss a path that is nearly as long.
+   * The greatest length of a path, in cells, or its cost where cells have costs; a path that is exactly as
+   * long is within it. An engine that guarantees nothing may miss a path that is nearly as long.
    */
   readonly maxCost?: number;
   /** The greatest number of expansions of the search. */

@@ -227,8 +227,8 @@ pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 25 } else
             "max-cost",
             Kind::Length,
             Meaning::MaxCost,
-            "The greatest length of a path, in cells; a path that is exactly as long is within it. An engine that \
-         guarantees nothing may miss a path that is nearly as long",
+            "The greatest length of a path, in cells, or its cost where cells have costs; a path that is exactly as \
+         long is within it. An engine that guarantees nothing may miss a path that is nearly as long",
         )
     },
     wish(

@@ -16,7 +16,7 @@ pub struct Wishes {
     pub snap: bool,
     /// The path may end within this many cells of the goal.
     pub tolerance: Option<f64>,
-    /// The greatest length of a path, in cells.
+    /// The greatest length of a path, in cells, or its cost where cells have costs.
     pub max_cost: Option<f64>,
     /// The greatest number of expansions.
     pub max_expansions: Option<u64>,
