@@ -34,9 +34,24 @@ pub(crate) const NO_PATH: f64 = -1.0;
 /// A single query, or some of a scenario's, of a list of pairs, or of a timeline.
 pub(crate) enum Queries {
     Single(Ends),
-    Pairs { name: String, pairs: Vec<Ends>, every: usize, limit: usize },
-    Scenario { name: String, scenario: Scenario, every: usize, limit: usize },
-    Timeline { name: String, timeline: Timeline },
+    Pairs {
+        name: String,
+        pairs: Vec<Ends>,
+        every: usize,
+        limit: usize,
+    },
+    /// The lengths that it gives are not `known` to be costs where cells have costs.
+    Scenario {
+        name: String,
+        scenario: Scenario,
+        known: bool,
+        every: usize,
+        limit: usize,
+    },
+    Timeline {
+        name: String,
+        timeline: Timeline,
+    },
 }
 
 impl Queries {
@@ -63,6 +78,7 @@ impl Queries {
             (None, ..) if is_builtin(&args.map.map) => &args.map.map,
             (None, ..) => {
                 let scenario = map.scenario.as_ref().ok_or(Failure::NoQueries)?;
+                map.refuse_on_costs("a scenario of a map that changes", true)?;
                 let timeline = Timeline::of_scenario(scenario, &map.ground).take(every, limit);
                 return Ok(Self::Timeline { name: map.name.clone(), timeline });
             }
@@ -75,7 +91,7 @@ impl Queries {
         if scenario.instances().is_empty() {
             return Err(Failure::NoInstances { scenario: name });
         }
-        Ok(Self::Scenario { name, scenario, every, limit })
+        Ok(Self::Scenario { name, scenario, known: !map.has_costs(), every, limit })
     }
 
     /// The scenario's file name, if there is one.
@@ -110,6 +126,7 @@ impl Queries {
 
     /// The queries, in the order of the file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Item> {
+        let known = !matches!(self, Self::Scenario { known: false, .. });
         let (single, pairs, instances, every, limit): (_, &[Ends], &[Instance], _, _) = match self {
             Self::Single(query) => (Some(*query), &[], &[], 1, 0),
             Self::Pairs { pairs, every, limit, .. } => (None, pairs, &[], *every, *limit),
@@ -128,10 +145,10 @@ impl Queries {
         let instances = instances.iter().enumerate().step_by(every).take(limit);
         single
             .chain(pairs)
-            .chain(instances.map(|(index, instance)| Item {
+            .chain(instances.map(move |(index, instance)| Item {
                 index,
                 ends: Ends::new(instance.start, instance.goal),
-                reference: instance.known_optimal(),
+                reference: instance.known_optimal().filter(|_| known),
             }))
             .chain(of_timeline.iter().copied())
     }

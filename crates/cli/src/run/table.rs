@@ -23,6 +23,8 @@ pub(crate) struct TableReport<'s> {
     screen: &'s mut Screen,
     queries: usize,
     from_scenario: bool,
+    /// Whether the scenario's lengths are those of the paths: not where cells have costs.
+    has_references: bool,
     /// Whether a query may be answered by another path than the one that was asked for.
     may_differ: bool,
     /// Whether only the lengths of paths are asked for.
@@ -51,6 +53,7 @@ impl<'s> TableReport<'s> {
             screen,
             queries: 0,
             from_scenario: false,
+            has_references: false,
             may_differ: false,
             only_lengths: false,
             is_reference: false,
@@ -76,7 +79,7 @@ impl<'s> TableReport<'s> {
             heads.push(("answer", Align::Left));
         }
         heads.push(("cost", Align::Right));
-        if self.from_scenario {
+        if self.has_references {
             heads.push(("reference", Align::Right));
         }
         // There is not room for both columns in 80.
@@ -129,7 +132,7 @@ impl<'s> TableReport<'s> {
         } else {
             cells.push(cost.unwrap_or_else(|| answer.to_owned()));
         }
-        if self.from_scenario {
+        if self.has_references {
             let reference = row.item.reference;
             cells.push(reference.map_or_else(String::new, |reference| {
                 if reference == NO_PATH { "none".to_owned() } else { format!("{reference:.4}") }
@@ -235,6 +238,7 @@ impl Report for TableReport<'_> {
         self.world = run.map.frame.map(|frame| (frame, setup.rules().placement()));
         self.moved = run.query.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
+        self.has_references = self.from_scenario && !run.map.has_costs();
         self.may_differ = run.query.wishes.nearest || run.query.wishes.has_limits();
         self.only_lengths = run.query.distance;
         self.is_reference = setup.solves_scenarios();

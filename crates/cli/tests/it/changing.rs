@@ -84,6 +84,8 @@ fn scenarios_of_patches_that_are_refused() {
     assert!(text.contains("the map hall.scen has no characters for tiles"), "{text}");
     let text = refused(&files, &format!("run {scenario} --grounds"));
     assert!(text.contains("leave --grounds out"), "{text}");
+    let text = refused(&files, &format!("run {scenario} --inflation-radius 1"));
+    assert!(text.contains("a scenario of a map that changes does not go with costs"), "{text}");
     files.add("hall.patch", PATCHES.replace("patches 4", "patches 3"));
     let text = refused(&files, &format!("run {scenario}"));
     assert!(text.starts_with("error: hall.patch: line 22, column 1: expected the end of the file after 3 patches, found `patch 3`; "), "{text}");
