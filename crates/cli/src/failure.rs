@@ -2,7 +2,11 @@
 
 use std::{io, path::PathBuf, process::ExitCode};
 
-use mediant::{Engine, PlacementKind, Vertex, call::CallError, errors::SetupError};
+use mediant::{
+    Engine, PlacementKind, Vertex,
+    call::CallError,
+    errors::{CostsError, SetupError},
+};
 use mediant_formats::{MapMismatch, PictureError, ReadError, RosError, SurfaceError, TilesError, WriteError};
 
 use crate::terminal::message::say_error;
@@ -46,6 +50,11 @@ pub(crate) enum Failure {
     NoSuchMap { name: String, known: String },
     #[error("the map {map} has no place in the world: leave --world out, or give the YAML file of a ROS map")]
     NoWorld { map: String },
+    #[error(
+        "{map} is a raster, on which places are columns and rows of cells: leave --world out, and count them \
+         from 0, from the left and from the top"
+    )]
+    RasterWorld { map: String },
     #[error("the map {map} has no characters for tiles: leave {option} out, or give a MovingAI map")]
     NoTiles { map: String, option: &'static str },
     #[error(transparent)]
@@ -54,7 +63,7 @@ pub(crate) enum Failure {
     BackLinks { k: mediant::K },
     #[error("{option} does not go with costs: leave it out, or leave the costs out")]
     NotOnCosts { option: &'static str },
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}{}", path.display(), cure(source))]
     Numbers { path: PathBuf, source: Box<mediant::Error> },
     #[error("{option} {} for {map}, whose cells have numbers of their own: leave one of the two out", path.display())]
     TwoNumbers { option: &'static str, path: PathBuf, map: String },
@@ -154,6 +163,16 @@ pub(crate) enum Failure {
     K(#[from] mediant::moves::KError),
     #[error("cannot write the output: {0}")]
     Output(#[from] io::Error),
+}
+
+/// What to do about the numbers of a raster, beyond what the library knows of it.
+fn cure(error: &mediant::Error) -> &'static str {
+    match error {
+        mediant::Error::Costs(CostsError::Cost { .. }) => {
+            ": in a raster it has no data (NaN in NPY); for heights mediant reach, run and table have --elevation"
+        }
+        _ => "",
+    }
 }
 
 /// Writes what failed on stderr, and returns the exit status. If the reader of stdout has left (`| head`),

@@ -83,6 +83,12 @@ impl NamedMap {
         }
         let name = file_name(&args.map);
         if is_surface(&args.map) {
+            if args.world {
+                return Err(Failure::RasterWorld { map: name });
+            }
+            if let Some(option) = args.tiles_option() {
+                return Err(Failure::NoTiles { map: name, option });
+            }
             return Self::of_raster(name, &args.map, band);
         }
         let (grid, tiles, place, scenario) = match changing(&args.map)? {
@@ -92,8 +98,7 @@ impl NamedMap {
                 (source.grid, source.tiles, source.frame, None)
             }
         };
-        if args.names_tiles() && tiles.is_none() {
-            let option = if args.free.is_some() { "--free" } else { "--blocked" };
+        if let Some(option) = args.tiles_option().filter(|_| tiles.is_none()) {
             return Err(Failure::NoTiles { map: name, option });
         }
         if args.world && place.is_none() {

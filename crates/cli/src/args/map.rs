@@ -10,8 +10,9 @@ use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 pub(crate) struct MapArgs {
-    /// A map: a MovingAI map, a PNG, PGM or PBM picture, the YAML file of a ROS map, a scenario of a map that
-    /// changes (version 2), or builtin:NAME (archipelago, cave, maze, town)
+    /// A map: a MovingAI map, a PNG, PGM or PBM picture, the YAML file of a ROS map, a raster of numbers (NPY,
+    /// ESRI ASCII grid, GeoTIFF), whose cells cost that much, a scenario of a map that changes (version 2), or
+    /// builtin:NAME (archipelago, cave, maze, town)
     pub(crate) map: PathBuf,
 
     /// The agent is a disc of this radius, in cells (with --world in meters): it keeps this distance to all
@@ -71,8 +72,12 @@ impl MapArgs {
         })
     }
 
-    /// Whether the arguments say which characters are free.
-    pub(crate) const fn names_tiles(&self) -> bool {
-        self.free.is_some() || self.blocked.is_some()
+    /// The option that says which characters are free, if one does.
+    pub(crate) const fn tiles_option(&self) -> Option<&'static str> {
+        match (&self.free, &self.blocked) {
+            (Some(_), _) => Some("--free"),
+            (None, Some(_)) => Some("--blocked"),
+            (None, None) => None,
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::{
+    costs::{CostsArgs, WalkingArgs},
     flags::{ENGINE, Flags, MOTION, OPTIONS},
     map::MapArgs,
     value::{Place, parse_place},
@@ -15,6 +16,10 @@ use super::{
 pub(crate) struct TableArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
+    #[command(flatten)]
+    pub(crate) walking: WalkingArgs,
 
     /// A start (repeat it for several)
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_place)]
@@ -58,7 +63,7 @@ With hub labels (engine subgoal, on most maps) all goals of a start are measured
 query for each takes. With other engines each pair is a query. By default, more than 1,000 pairs are measured by \
 subgoal, fewer by an engine that prepares little.
 
-Lengths are in cells. The table shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
+Lengths are in cells; with costs of cells they are costs, and with --elevation seconds. The table shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
 each pair: start_x, start_y, goal_x, goal_y and distance, empty if there is no way. With --format jsonl: a line \
 {\"type\": \"table\"} with \"starts\" and \"goals\", how many there are, then a line {\"type\": \"row\"} for each \
 start, with \"start\" and \"distances\" (null: no way), with --nearest \"goal\", \"number\" (of the goal, from 0) \
@@ -70,4 +75,5 @@ read, 3 with --require-path if there is no way somewhere.
 Examples:
   mediant table builtin:town --from 10,3 --from 58,18 --to 6,6 --to 60,29
   mediant table arena.map --from-file homes.txt --to-file hotels.txt --nearest --format csv
+  mediant table friction.tif --k 4 --from 1,11 --from 9,9 --to-file goals.txt --nearest
   mediant table arena.map --k any --from 1,11 --to-file goals.txt --index arena.idx --format jsonl";

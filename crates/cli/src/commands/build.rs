@@ -22,8 +22,10 @@ use crate::{
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
     // A setup without an index is refused before anything is computed.
     let asked = Asked::of(&args.flags.0, true)?;
-    let map =
-        NamedMap::load(&args.map)?.for_agent(&args.map, asked.motion)?.with_costs(&args.map, &args.costs)?;
+    let map = NamedMap::load_ground(&args.map, args.costs.band)?
+        .without_tiles()
+        .for_agent(&args.map, asked.motion)?
+        .with_costs(&args.map, &args.costs)?;
     check_outputs(&args.map.map, args.costs.inputs(), &[&args.output])?;
     let progress = BuildProgress::new();
     let begin = Instant::now();

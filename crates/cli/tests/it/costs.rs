@@ -42,6 +42,28 @@ fn a_path_tells_its_cost_and_its_length() {
 }
 
 #[test]
+fn a_table_is_of_costs_and_of_times() {
+    let (files, arguments) = files();
+    let table = "--from 0,0 --from 0,2 --to 4,0 --k 2 --format csv";
+    let expected = "start_x,start_y,goal_x,goal_y,distance\n0,0,4,0,11\n0,2,4,0,7.5\n";
+    assert_eq!(succeeds(&format!("table {arguments} {table}")), expected);
+    let map = files.path("land.map");
+    let flat = files.add("flat.asc", COSTS.replace('9', "1").replace('4', "1"));
+    let times = succeeds(&format!("table {map} --elevation {flat} {table}"));
+    assert!(times.starts_with("start_x"), "{times}");
+}
+
+#[test]
+fn lengths_of_a_scenario_are_no_costs() {
+    let (files, arguments) = files();
+    let scenario = files.add("land.scen", "version 1\n0\tland.map\t5\t3\t0\t0\t4\t0\t4\n");
+    let text = succeeds(&format!("run {arguments} --scen {scenario} --k 2"));
+    assert!(text.contains("11.0000") && !text.contains("reference"), "{text}");
+    let lines = lines(&succeeds(&format!("run {arguments} --scen {scenario} --k 2 --format jsonl")));
+    assert!(lines[1]["reference"].is_null() && lines[2]["reference"].is_null(), "{lines:?}");
+}
+
+#[test]
 fn limits_are_in_costs() {
     let (_files, arguments) = files();
     let stopped =
@@ -176,7 +198,8 @@ fn what_does_not_go_with_costs_is_said() {
         &format!("reach {map} --from 0,0 --costs {wrong}"),
         &format!(
             "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number; a cell that cannot be entered \
-             is marked as blocked, not by its cost"
+             is marked as blocked, not by its cost: in a raster it has no data (NaN in NPY); for heights mediant \
+             reach, run and table have --elevation"
         ),
     );
     check(
@@ -184,6 +207,15 @@ fn what_does_not_go_with_costs_is_said() {
         &format!(
             "--costs {small} for small.asc, whose cells have numbers of their own: leave one of the two out"
         ),
+    );
+    check(
+        &format!("reach {small} --from 0.5,0.5 --world"),
+        "small.asc is a raster, on which places are columns and rows of cells: leave --world out, and count them \
+         from 0, from the left and from the top",
+    );
+    check(
+        &format!("reach {small} --from 0,0 --free W"),
+        "the map small.asc has no characters for tiles: leave --free out, or give a MovingAI map",
     );
     let missing = run(&format!("reach {map} --from 0,0 --costs no.tif"));
     assert!(missing.status == Some(2) && missing.stderr.contains("no.tif"), "{}", missing.stderr);

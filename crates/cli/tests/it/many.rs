@@ -221,5 +221,5 @@ fn the_examples_of_the_help_run() {
     }
     let (map, index) = (files.path("arena.map"), files.path("arena.idx"));
     assert_eq!(run(&format!("build {map} --engine subgoal --k any -o {index}")).status, Some(0));
-    run_examples(&files, "table", 3);
+    run_examples(&files, "table", 4);
 }
