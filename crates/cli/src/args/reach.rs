@@ -75,8 +75,9 @@ const REACH_HELP: &str = "\
 Distances are those of the shortest paths over N(k); with k = any, at corners, those of the shortest paths \
 at any angle.
 
-Files have vertices and distances in cells, with --world too; distances are costs where cells have costs. The array has a row for each row of \
-vertices, and is infinite where nothing was reached. A picture shows the map that was read, also for an \
+Files have vertices and distances in cells, with --world too; distances are costs where cells have \
+costs. The array has a row for each row of vertices, and is infinite where nothing was reached. \
+A picture shows the map that was read, also for an \
 agent with a radius.
 
 Exit status: 0, 1 if a source is blocked or outside the map, 2 for bad arguments, or a file that cannot be \

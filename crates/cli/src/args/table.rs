@@ -63,7 +63,8 @@ With hub labels (engine subgoal, on most maps) all goals of a start are measured
 query for each takes. With other engines each pair is a query. By default, more than 1,000 pairs are measured by \
 subgoal, fewer by an engine that prepares little.
 
-Lengths are in cells; with costs of cells they are costs, and with --elevation seconds. The table shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
+Lengths are in cells; with costs of cells they are costs, and with --elevation seconds. The table \
+shows what fits on the screen; jsonl and csv have everything. CSV has a line for \
 each pair: start_x, start_y, goal_x, goal_y and distance, empty if there is no way. With --format jsonl: a line \
 {\"type\": \"table\"} with \"starts\" and \"goals\", how many there are, then a line {\"type\": \"row\"} for each \
 start, with \"start\" and \"distances\" (null: no way), with --nearest \"goal\", \"number\" (of the goal, from 0) \
