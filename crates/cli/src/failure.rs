@@ -165,7 +165,7 @@ pub(crate) enum Failure {
     Output(#[from] io::Error),
 }
 
-/// What to do about the numbers of a raster, beyond what the library knows of it.
+/// The cure for the numbers of a raster, beyond what the library knows of it.
 fn cure(error: &mediant::Error) -> &'static str {
     match error {
         mediant::Error::Costs(CostsError::Cost { .. }) => {

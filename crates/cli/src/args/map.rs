@@ -10,9 +10,9 @@ use crate::failure::Failure;
 
 #[derive(Args, Debug)]
 pub(crate) struct MapArgs {
-    /// A map: a MovingAI map, a PNG, PGM or PBM picture, the YAML file of a ROS map, a raster of numbers (NPY,
-    /// ESRI ASCII grid, GeoTIFF), whose cells cost that much, a scenario of a map that changes (version 2), or
-    /// builtin:NAME (archipelago, cave, maze, town)
+    /// A map: a MovingAI map, a PNG, PGM or PBM picture, the YAML file of a ROS map, a raster of numbers
+    /// (NPY, ESRI ASCII grid, GeoTIFF), whose cells cost that much, a scenario of a map that changes (version
+    /// 2), or builtin:NAME (archipelago, cave, maze, town)
     pub(crate) map: PathBuf,
 
     /// The agent is a disc of this radius, in cells (with --world in meters): it keeps this distance to all

@@ -48,7 +48,7 @@ fn a_table_is_of_costs_and_of_times() {
     let expected = "start_x,start_y,goal_x,goal_y,distance\n0,0,4,0,11\n0,2,4,0,7.5\n";
     assert_eq!(succeeds(&format!("table {arguments} {table}")), expected);
     let map = files.path("land.map");
-    let flat = files.add("flat.asc", COSTS.replace('9', "1").replace('4', "1"));
+    let flat = files.add("flat.asc", COSTS.replace(['9', '4'], "1"));
     let times = succeeds(&format!("table {map} --elevation {flat} {table}"));
     assert!(times.starts_with("start_x"), "{times}");
 }
