@@ -150,8 +150,8 @@ fn fields_over<P: Shared>(
 
 impl Fields {
     /// The same fields, where cells have costs each by so many threads, which are there for as long as it
-    /// takes; other fields, and those of several sources, are made on one. Two threads took 0.54 to
-    /// 0.77 of the time of one (`docs/measurements/costs.md`).
+    /// takes; other fields, and those of several sources, are made on one. Two threads took 0.55 to
+    /// 0.70 of the time of one (`docs/measurements/costs.md`).
     #[must_use]
     pub fn on_threads(self, threads: NonZeroUsize) -> Self {
         #[cfg(feature = "costs")]

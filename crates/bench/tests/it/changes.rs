@@ -1,10 +1,8 @@
 //! The study of maps that change: the page is that of the record, and the library's choice that of the study.
 
-use std::fs;
-
 use mediant_bench::compare::changes::{MOST, PATHS, cases, drawn};
-use mediant_report::Record;
-use mediant_sets::root;
+
+use crate::pages::{is_drawn, record};
 
 /// Where a look at the map does not tell the best engine: map, motion, and paths between two edits.
 const EXCEPTIONS: &[(&str, &str, u64)] = &[
@@ -16,23 +14,15 @@ const EXCEPTIONS: &[(&str, &str, u64)] = &[
 /// The most that the choice takes there, over the best engine.
 const MOST_OF_EXCEPTIONS: f64 = 2.0;
 
-fn record() -> Record {
-    let text = fs::read_to_string(root().join("docs/results/data/changes.json")).expect("a record");
-    Record::parse(&text).expect("a record")
-}
-
 #[test]
 fn the_page_is_drawn_from_the_record() {
-    for (place, text) in drawn(&record()) {
-        let committed = fs::read_to_string(root().join("docs/results").join(&place)).expect("a file");
-        assert!(committed == text, "{place}: run `cargo xtask compare --changes --render`");
-    }
+    is_drawn("changes", &drawn(&record("changes")));
 }
 
 /// On each map, for each motion and each number of paths between two edits.
 #[test]
 fn the_recommended_engine_is_nearly_the_best() {
-    let record = record();
+    let record = record("changes");
     let cases = cases(&record);
     assert!(cases.len() > 50, "{}", cases.len());
     let mut wrong = Vec::new();

@@ -113,7 +113,7 @@ impl CostField {
     }
 
     /// [`new`](Self::new) on so many threads, which are there for as long as it takes; the same field. A
-    /// query for the allocation is answered on one. Two threads took 0.54 to 0.77 of the time of one
+    /// query for the allocation is answered on one. Two threads took 0.55 to 0.70 of the time of one
     /// (`docs/measurements/costs.md`).
     ///
     /// # Errors
