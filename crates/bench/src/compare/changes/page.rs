@@ -2,7 +2,7 @@
 
 use std::{fs, path::Path};
 
-use mediant::{Demand, Map, Setup};
+use mediant::{Demand, Map, Setup, Space};
 use mediant_report::{Axis, Chart, Mark, Record, Row, Series, Table, number};
 
 use super::{EDITS, Part};
@@ -37,6 +37,8 @@ pub struct Case<'a> {
     pub motion: &'a str,
     /// Our engines.
     pub rows: Vec<&'a Row>,
+    /// A space for which the library chooses as for that of the map.
+    space: Option<Space>,
 }
 
 impl Case<'_> {
@@ -51,18 +53,21 @@ impl Case<'_> {
     /// that was not measured.
     #[must_use]
     pub fn taken(&self, paths: u64) -> Option<(&str, f64)> {
-        let row = self.rows.first()?;
-        let side = |column: &str| Some(row.number(column)? as u32);
-        let setup: Setup = format!("{}:{}", row.text("engine"), self.motion).parse().ok()?;
-        // The choice goes by the size of a map, by whether it is noise, and by whether obstacles stand alone.
-        let (is_noise, is_alone) = (row.number("corners")? > 0.1, row.number("lines")? > 0.6);
-        let blocked =
-            |x: u32, y: u32| y.is_multiple_of(3) && if is_noise { x.is_multiple_of(3) } else { !is_alone };
-        let space = setup.space(&Map::from_fn(side("width")?, side("height")?, blocked).ok()?).ok()?;
+        let space = self.space.as_ref()?;
         let engine = space.engine_for(Demand::Changing { paths }).ok()?.engine.to_string();
         let row = self.rows.iter().find(|row| row.text("engine") == engine)?;
         Some((row.text("engine"), millis(row, paths)?))
     }
+}
+
+/// The choice goes by the size of a map, by whether it is noise, and by whether obstacles stand alone.
+fn space_like(row: &Row, motion: &str) -> Option<Space> {
+    let side = |column: &str| Some(row.number(column)? as u32);
+    let setup: Setup = format!("{}:{motion}", row.text("engine")).parse().ok()?;
+    let (is_noise, is_alone) = (row.number("corners")? > 0.1, row.number("lines")? > 0.6);
+    let blocked =
+        |x: u32, y: u32| y.is_multiple_of(3) && if is_noise { x.is_multiple_of(3) } else { !is_alone };
+    setup.space(&Map::from_fn(side("width")?, side("height")?, blocked).ok()?).ok()
 }
 
 /// The maps and motions of the record.
@@ -76,7 +81,7 @@ pub fn cases(record: &Record) -> Vec<Case<'_>> {
         }
         match cases.iter_mut().find(|case| (case.map, case.motion) == (map, motion)) {
             Some(case) => case.rows.push(row),
-            None => cases.push(Case { map, motion, rows: vec![row] }),
+            None => cases.push(Case { map, motion, rows: vec![row], space: space_like(row, motion) }),
         }
     }
     cases
