@@ -252,6 +252,10 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
          and say so.\n",
         EXPERIMENTS.len()
     );
+    if shown.iter().all(|(_, record, _)| !record.provenance.quick) {
+        text += "\nTwo studies go beyond the papers: [maps that change](changes.md), by `cargo xtask compare \
+                 --changes`, and [cost surfaces](costs.md), by `--costs`.\n";
+    }
     text
 }
 

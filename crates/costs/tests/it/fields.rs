@@ -86,7 +86,7 @@ fn a_limit_holds_exactly_what_is_as_near() {
 
 #[test]
 fn several_threads_find_the_same_field() {
-    for_random_maps(30, |map, surface, rules, k, about| {
+    for_random_maps(12, |map, surface, rules, k, about| {
         let graph = graph(surface, rules, k);
         let Some(source) = random_free_vertex(&mut Rng::new(7), map.grid(), rules.placement()) else {
             return;
