@@ -16,7 +16,7 @@ pub(super) type Piece = [(f64, f64); 2];
 pub(super) fn lines(picture: &Picture<'_>) -> Vec<Piece> {
     let Some((least, greatest)) = range(&picture.field) else { return Vec::new() };
     let step = round_step((greatest - least) / LINES);
-    if picture.layout().cells > 1 || !step.is_finite() || step <= 0.0 {
+    if !picture.has_contours || picture.layout().cells > 1 || !step.is_finite() || step <= 0.0 {
         return Vec::new();
     }
     let (columns, _) = picture.vertices();

@@ -64,6 +64,7 @@ pub struct Picture<'g> {
     placement: PlacementKind,
     /// The value of each vertex, row by row; NaN where there is none. Empty without a field.
     field: Vec<f32>,
+    has_contours: bool,
     expanded: Vec<Vertex>,
     open: Vec<Vertex>,
     paths: Vec<Line>,
@@ -89,6 +90,7 @@ impl<'g> Picture<'g> {
             grid,
             placement,
             field: Vec::new(),
+            has_contours: true,
             expanded: Vec::new(),
             open: Vec::new(),
             paths: Vec::new(),
@@ -109,6 +111,14 @@ impl<'g> Picture<'g> {
         let vertices = (0..rows as i32).flat_map(|y| (0..columns as i32).map(move |x| Vertex::new(x, y)));
         let values = vertices.map(|at| value(at).map_or(f32::NAN, |value| value as f32));
         self.field = values.map(|value| if value.is_finite() { value } else { f32::NAN }).collect();
+        self
+    }
+
+    /// The same picture without contour lines: for values that are no distances, such as costs of cells,
+    /// which change from cell to cell.
+    #[must_use]
+    pub const fn without_contours(mut self) -> Self {
+        self.has_contours = false;
         self
     }
 

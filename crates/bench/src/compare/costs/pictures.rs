@@ -28,8 +28,8 @@ pub(super) fn write(root: &Path, surfaces: &[Kind]) -> Result<(), CompareError> 
         };
         let last = SIDE as i32 - 1;
         let (Some(start), Some(goal)) = (free([4, last - 20]), free([last - 4, 12])) else { continue };
-        let mut picture = Picture::new(costs.map().grid(), PlacementKind::Center).largest_side(960);
-        picture = picture.field(|at| costs.cost(at));
+        let mut picture = Picture::new(costs.map().grid(), PlacementKind::Center).largest_side(768);
+        picture = picture.field(|at| costs.cost(at)).without_contours();
         for k in KS {
             let Some(path) = space(&costs, k)?.path(start, goal)? else { continue };
             let points = path.waypoints().iter().map(|at| (f64::from(at.x), f64::from(at.y)));
