@@ -56,5 +56,6 @@ pub use landmarks::{Landmarks, LandmarksError};
 pub use surface::{CostSurface, CostUnits};
 pub use theta::{CostTheta, smooth};
 pub use walking::{
-    Heading, Langmuir, Pace, WalkingAStar, WalkingError, WalkingField, WalkingGraph, WalkingMap,
+    Heading, Langmuir, Pace, WalkingAStar, WalkingBounds, WalkingError, WalkingField, WalkingGraph,
+    WalkingMap,
 };

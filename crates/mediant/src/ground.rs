@@ -1,4 +1,4 @@
-//! Grounds: maps of which some have costs of cells.
+//! Grounds: maps of which some have costs of cells, or elevations.
 
 use std::{path::Path as FilePath, sync::Arc};
 
@@ -9,6 +9,8 @@ use mediant_search::Limits;
 use crate::costs::Costs;
 #[cfg(feature = "costs")]
 use crate::setup_error::SetupError;
+#[cfg(feature = "walking")]
+use crate::walking::Walking;
 use crate::{
     call::{Call, CallError},
     error::Error,
@@ -20,8 +22,8 @@ use crate::{
     space::Space,
 };
 
-/// A map, or [costs](Map::costs) of its cells: what a program holds that is given one or the other, such as
-/// the grids of other languages. It has what both have.
+/// A map, or [costs](Map::costs) or [elevations](Map::walking) of its cells: what a program holds that is
+/// given one of them, such as the grids of other languages. It has what all have.
 ///
 /// ```
 /// use mediant::{Ground, Limits, Map, Motion};
@@ -42,15 +44,23 @@ pub enum Ground {
     /// A map with a cost of each free cell.
     #[cfg(feature = "costs")]
     Costs(Costs),
+    /// A map with an elevation of each free cell.
+    #[cfg(feature = "walking")]
+    Walking(Walking),
 }
 
-/// Asks the map, or the costs.
+/// Asks the map, the costs or the elevations; these may have another answer.
 macro_rules! either {
     ($ground:expr, $either:ident => $answer:expr) => {
+        either!($ground, $either => $answer, $either => $answer)
+    };
+    ($ground:expr, $either:ident => $answer:expr, $walking:pat => $other:expr) => {
         match $ground {
             Ground::Map($either) => $answer,
             #[cfg(feature = "costs")]
             Ground::Costs($either) => $answer,
+            #[cfg(feature = "walking")]
+            Ground::Walking($walking) => $other,
         }
     };
 }
@@ -63,6 +73,8 @@ impl Ground {
             Self::Map(map) => map,
             #[cfg(feature = "costs")]
             Self::Costs(costs) => costs.map(),
+            #[cfg(feature = "walking")]
+            Self::Walking(walking) => walking.map(),
         }
     }
 
@@ -70,10 +82,14 @@ impl Ground {
     #[cfg(feature = "costs")]
     #[must_use]
     pub const fn costs(&self) -> Option<&Costs> {
-        match self {
-            Self::Map(_) => None,
-            Self::Costs(costs) => Some(costs),
-        }
+        if let Self::Costs(costs) = self { Some(costs) } else { None }
+    }
+
+    /// The elevations of its cells, if they have any.
+    #[cfg(feature = "walking")]
+    #[must_use]
+    pub const fn walking(&self) -> Option<&Walking> {
+        if let Self::Walking(walking) = self { Some(walking) } else { None }
     }
 
     /// The setup of a call: of the engine that it names, or for the next path here.
@@ -116,33 +132,37 @@ impl Ground {
     /// count.
     ///
     /// # Errors
-    /// As for [`Map::load`], and [`Error::Stopped`].
+    /// As for [`Map::load`], and [`Error::Stopped`]; [`Error::Setup`] over elevation.
     pub fn load(&self, path: impl AsRef<FilePath>, limits: impl Into<Limits>) -> Result<Index, Error> {
-        either!(self, ground => ground.within(limits).load(path))
+        either!(self, ground => ground.within(limits).load(path),
+            _ => Err(SetupError::INDEX_OVER_ELEVATION.into()))
     }
 
     /// The index that [`Index::to_bytes`] wrote: see [`Map::index_from_bytes`]. Of the limits the deadline
     /// and the flag count.
     ///
     /// # Errors
-    /// As for [`Map::index_from_bytes`], and [`Error::Stopped`].
+    /// As for [`Map::index_from_bytes`], and [`Error::Stopped`]; [`Error::Setup`] over elevation.
     pub fn index_from_bytes(&self, bytes: Vec<u8>, limits: impl Into<Limits>) -> Result<Index, Error> {
-        either!(self, ground => ground.within(limits).index_from_bytes(bytes))
+        either!(self, ground => ground.within(limits).index_from_bytes(bytes),
+            _ => Err(SetupError::INDEX_OVER_ELEVATION.into()))
     }
 
     /// This ground with other cells in a rectangle: see [`Map::edit`].
     ///
     /// # Errors
     /// As for [`Map::edit`]; [`Error::Freed`] for a blocked cell that is freed where cells have costs: it
-    /// needs one.
+    /// needs one; [`Error::Setup`] where cells have elevations.
     pub fn edit(&self, at: Rectangle, blocked: impl FnMut(u32, u32) -> bool) -> Result<Self, Error> {
-        either!(self, ground => Ok(ground.edit(at, blocked)?.into()))
+        either!(self, ground => Ok(ground.edit(at, blocked)?.into()),
+            _ => Err(SetupError::EDITS_OVER_ELEVATION.into()))
     }
 
     /// This ground with other scattered cells: see [`Map::edit_cells`].
     ///
     /// # Errors
-    /// As for [`Map::edit_cells`]; [`Error::Freed`] as for [`edit`](Self::edit).
+    /// As for [`Map::edit_cells`]; [`Error::Freed`] and [`Error::Setup`] as for
+    /// [`edit`](Self::edit).
     pub fn edit_cells<C: Into<Vertex>>(
         &self,
         cells: impl IntoIterator<Item = (C, bool)>,
@@ -151,13 +171,15 @@ impl Ground {
             Self::Map(map) => Ok(map.edit_cells(cells)?.into()),
             #[cfg(feature = "costs")]
             Self::Costs(costs) => Ok(costs.block_cells(cells)?.into()),
+            #[cfg(feature = "walking")]
+            Self::Walking(_) => Err(SetupError::EDITS_OVER_ELEVATION.into()),
         }
     }
 
     /// This ground with other costs of some cells: see [`Costs::edit_cells`].
     ///
     /// # Errors
-    /// As for [`Costs::edit_cells`]; [`SetupError::WithoutCosts`] for a map.
+    /// As for [`Costs::edit_cells`]; [`SetupError::WithoutCosts`] for another ground.
     #[cfg(feature = "costs")]
     pub fn edit_costs<C: Into<Vertex>>(
         &self,
@@ -178,5 +200,12 @@ impl From<Map> for Ground {
 impl From<Costs> for Ground {
     fn from(costs: Costs) -> Self {
         Self::Costs(costs)
+    }
+}
+
+#[cfg(feature = "walking")]
+impl From<Walking> for Ground {
+    fn from(walking: Walking) -> Self {
+        Self::Walking(walking)
     }
 }

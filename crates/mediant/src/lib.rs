@@ -310,7 +310,7 @@ pub use map::Map;
 #[cfg(feature = "costs")]
 pub use mediant_costs::{CostUnits, DirectionCode, Inflation, Traversal};
 #[cfg(feature = "walking")]
-pub use mediant_costs::{Langmuir, Pace};
+pub use mediant_costs::{Langmuir, Pace, WalkingBounds};
 #[doc(hidden)]
 pub use mediant_grid::names;
 pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Point, Rectangle, Rules, Vertex};

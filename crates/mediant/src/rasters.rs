@@ -231,9 +231,8 @@ mod walking {
             map = map.on_surface(friction)?.0;
         }
         let number = |surface: &Surface, x, y| surface.get(x, y).unwrap_or(f64::NAN);
-        let friction = friction.map(|friction| move |x: u32, y: u32| number(friction, x, y));
-        let height = |x: u32, y: u32| number(elevation, x, y);
-        Walking::of(&map, (cell_size, pace), interrupt, height, friction)
+        let rough = |x: u32, y: u32| friction.map_or(0.0, |friction| number(friction, x, y));
+        Walking::of(&map, (cell_size, pace), None, interrupt, |x, y| (number(elevation, x, y), rough(x, y)))
     }
 
     impl Within<'_, Map> {

@@ -293,8 +293,61 @@ mod on_costs {
         /// # Errors
         /// [`CallError`] for parameters that do not go together.
         pub fn setup(&self, call: &Call) -> Result<Setup, CallError> {
-            let engine = call.configured(call.engine().unwrap_or(Choice::ON_COSTS.engine))?;
-            Ok(Setup { smoothing: call.smoothing(), ..Setup::new(engine, call.motion()?) })
+            setup_on_costs(call)
+        }
+
+        keeps!();
+    }
+
+    /// The setup of a call where paths have costs.
+    pub(super) fn setup_on_costs(call: &Call) -> Result<Setup, CallError> {
+        let engine = call.configured(call.engine().unwrap_or(Choice::ON_COSTS.engine))?;
+        Ok(Setup { smoothing: call.smoothing(), ..Setup::new(engine, call.motion()?) })
+    }
+}
+
+#[cfg(feature = "walking")]
+mod over_elevation {
+    use std::sync::Arc;
+
+    use mediant_grid::Rectangle;
+    use mediant_search::Limits;
+
+    use super::{Keeps, Recent, on_costs::setup_on_costs};
+    use crate::{
+        call::{Call, CallError},
+        error::Error,
+        motion::Motion,
+        planners::Planners,
+        setup::Setup,
+        space::Space,
+        surface::Surface,
+        walking::Walking,
+    };
+
+    impl Keeps for Walking {
+        fn recent(&self) -> &Arc<Recent> {
+            self.recent()
+        }
+
+        fn make(&self, motion: Motion, limits: Limits) -> Result<Space, Error> {
+            self.within(limits).space(motion)
+        }
+
+        // There are no edits of elevations.
+        fn surface_like(&self, _: &Space, _: &[Rectangle]) -> Result<Option<Surface>, Error> {
+            Ok(None)
+        }
+    }
+
+    impl Walking {
+        /// The setup of a call: of the engine that it names, or A*. [`keep_planners`](Self::keep_planners)
+        /// refuses an engine that does not walk.
+        ///
+        /// # Errors
+        /// [`CallError`] for parameters that do not go together.
+        pub fn setup(&self, call: &Call) -> Result<Setup, CallError> {
+            setup_on_costs(call)
         }
 
         keeps!();

@@ -51,7 +51,7 @@ mod given {
             let k = motion.k.finite().filter(|k| k.get() <= MAX);
             let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
             let graph = Arc::new(WalkingGraph::new(Arc::clone(of.ground()), motion.rules, k)?);
-            Self::searched(of.map(), (None, Some(Walk { walking: of.clone(), graph })), motion, interrupt)
+            Self::searched(of.map(), (None, Some(Walk { walking: of.alone(), graph })), motion, interrupt)
         }
 
         /// The elevation of its cells and the pace, if it is a space to [walk on](crate::Map::walking).

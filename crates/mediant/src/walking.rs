@@ -2,12 +2,13 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_costs::{CostFieldError, Pace, WalkingError, WalkingMap};
+use mediant_costs::{CostFieldError, Pace, WalkingBounds, WalkingError, WalkingMap};
 use mediant_grid::{Interrupt, MapId, Vertex};
 use mediant_search::{Limits, QueryError};
 
 use crate::{
-    error::Error, map::Map, memory_check, motion::Motion, never::NEVER, space::Space, within::Within,
+    error::Error, map::Map, memory_check, motion::Motion, never::NEVER, recent::Recent, space::Space,
+    within::Within,
 };
 
 /// A map to walk on, made by [`Map::walking`]: free cells have an elevation, that of their centers, and a
@@ -27,6 +28,8 @@ use crate::{
 pub struct Walking {
     map: Map,
     ground: Arc<WalkingMap>,
+    pace: Arc<Pace>,
+    recent: Arc<Recent>,
 }
 
 impl Map {
@@ -84,6 +87,48 @@ impl Map {
     }
 }
 
+impl Map {
+    /// This map with the elevation and the friction that `ground(x, y)` has for its free cells, without a
+    /// list of them. Each is asked for three times. Of the limits the deadline and the flag count.
+    ///
+    /// ```
+    /// use mediant::{Limits, Map, Pace};
+    ///
+    /// let ground = |x: u32, y: u32| (f64::from(x * y), 0.0);
+    /// let walking = Map::new(3, 2)?.walking_by((30.0, 20.0), &Pace::Tobler, Limits::new(), ground)?;
+    /// assert_eq!((walking.elevation((2, 1)), walking.friction((2, 1))), (Some(2.0), Some(0.0)));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`walking_with_friction`](Self::walking_with_friction), and [`Error::Stopped`].
+    pub fn walking_by(
+        &self,
+        cell_size: (f64, f64),
+        pace: &Pace,
+        limits: impl Into<Limits>,
+        ground: impl Fn(u32, u32) -> (f64, f64),
+    ) -> Result<Walking, Error> {
+        Walking::of(self, (cell_size, pace), None, limits.into().interrupt(), ground)
+    }
+
+    /// The elevations that had these [bounds](Walking::ground_bounds), from the same elevations and frictions
+    /// of the same map: a copy that was sent elsewhere, equal to the first one.
+    ///
+    /// # Errors
+    /// As for [`walking_by`](Self::walking_by).
+    pub fn walking_in(
+        &self,
+        bounds: WalkingBounds,
+        cell_size: (f64, f64),
+        pace: &Pace,
+        limits: impl Into<Limits>,
+        ground: impl Fn(u32, u32) -> (f64, f64),
+    ) -> Result<Walking, Error> {
+        Walking::of(self, (cell_size, pace), Some(bounds), limits.into().interrupt(), ground)
+    }
+}
+
 fn collected<N: Into<f64>>(numbers: impl IntoIterator<Item = N>) -> Vec<f64> {
     numbers.into_iter().map(Into::into).collect()
 }
@@ -103,34 +148,41 @@ impl Walking {
                 return Err(WalkingError::Count { what, found, expected }.into());
             }
         }
-        let at = |x: u32, y: u32| y as usize * columns + x as usize;
-        let elevation = |x: u32, y: u32| elevations[at(x, y)];
-        match frictions {
-            Some(frictions) => Self::of(map, by, interrupt, elevation, Some(|x, y| frictions[at(x, y)])),
-            None => Self::of(map, by, interrupt, elevation, None::<fn(u32, u32) -> f64>),
-        }
+        let friction = |at: usize| frictions.map_or(0.0, |frictions| frictions[at]);
+        Self::of(map, by, None, interrupt, |x, y| {
+            let at = y as usize * columns + x as usize;
+            (elevations[at], friction(at))
+        })
     }
 
-    /// The free cells of a map, with the elevation and the friction of each.
+    /// The free cells of a map, with the elevation and the friction of each; a copy, if it has bounds.
     pub(crate) fn of(
         map: &Map,
         (cell_size, pace): ((f64, f64), &Pace),
+        bounds: Option<WalkingBounds>,
         interrupt: &Interrupt,
-        elevation: impl Fn(u32, u32) -> f64,
-        friction: Option<impl Fn(u32, u32) -> f64>,
+        ground: impl Fn(u32, u32) -> (f64, f64),
     ) -> Result<Self, Error> {
         let (grid, size) = (map.grid(), (map.width(), map.height()));
         let cells = u64::from(size.0) * u64::from(size.1);
         memory_check::check("the elevations", cells.saturating_mul(BYTES))?;
-        let free = |x: u32, y: u32| grid.is_free(x as i32, y as i32).then(|| elevation(x, y));
-        let ground = match friction {
-            Some(friction) => WalkingMap::with_friction(size, cell_size, pace, interrupt, |x, y| {
-                Some((free(x, y)?, friction(x, y)))
-            }),
-            None => WalkingMap::new(size, cell_size, pace, interrupt, free),
+        let free = |x: u32, y: u32| grid.is_free(x as i32, y as i32).then(|| ground(x, y));
+        let ground = match bounds {
+            Some(bounds) => WalkingMap::with_bounds(size, cell_size, pace, bounds, interrupt, free),
+            None => WalkingMap::with_friction(size, cell_size, pace, interrupt, free),
         };
         // Without what the map keeps for paths of its own.
-        Ok(Self { map: Arc::clone(grid).into(), ground: Arc::new(ground?) })
+        let (map, pace) = (Arc::clone(grid).into(), Arc::new(pace.clone()));
+        Ok(Self { map, ground: Arc::new(ground?), pace, recent: Arc::default() })
+    }
+
+    /// This elevation without what it keeps, of which a space of it may become a part.
+    pub(crate) fn alone(&self) -> Self {
+        Self { map: Arc::clone(self.map.grid()).into(), recent: Arc::default(), ..self.clone() }
+    }
+
+    pub(crate) const fn recent(&self) -> &Arc<Recent> {
+        &self.recent
     }
 
     /// This elevation with rules of motion, which are those of centers, and a k from 2 to 8.
@@ -161,6 +213,18 @@ impl Walking {
     pub fn friction(&self, cell: impl Into<Vertex>) -> Option<f64> {
         let Vertex { x, y } = cell.into();
         self.ground.friction(u32::try_from(x).ok()?, u32::try_from(y).ok()?)
+    }
+
+    /// The bounds of its elevations and frictions, as they were given: see [`Map::walking_in`].
+    #[must_use]
+    pub fn ground_bounds(&self) -> WalkingBounds {
+        self.ground.ground_bounds()
+    }
+
+    /// The pace.
+    #[must_use]
+    pub fn pace(&self) -> &Pace {
+        &self.pace
     }
 
     /// The bounds of the time of a unit of length on the slopes of the map, friction included.

@@ -58,7 +58,7 @@ pub(crate) fn costs_of(value: &Bound<'_, PyAny>, map: &Map, (height, width): (f6
     }
     let array = if is_whole(&array)? { array } else { array.call_method0("copy")?.cast_into()? };
     let of = |cost: &(dyn Fn(u32, u32) -> f64 + Sync)| {
-        watched(array.py(), |limits| map.costs_by((width, height), limits, cost))
+        watched(array.py(), |limits| map.costs_by((width, height), limits, cost))?.map_err(raised_for_costs)
     };
     macro_rules! of_types {
         ($number:expr; $($type:ty),*) => {$(
@@ -78,15 +78,15 @@ pub(crate) fn costs_of(value: &Bound<'_, PyAny>, map: &Map, (height, width): (f6
     of(&|x, y| numbers[[y as usize, x as usize]])
 }
 
-/// Reads costs with the GIL released; Ctrl-C ends it.
-fn watched(py: Python<'_>, work: impl FnOnce(Limits) -> Result<Costs, Error> + Send) -> PyResult<Costs> {
+/// Reads numbers with the GIL released; Ctrl-C ends it.
+pub(crate) fn watched<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(Limits) -> Result<T, Error> + Send,
+) -> PyResult<Result<T, Error>> {
     let interruption = Interruption::default();
     let limits = interruption.watch(Limits::new(), None);
-    let costs = py.detach(|| work(limits));
-    match interruption.take() {
-        Some(error) => Err(error),
-        None => costs.map_err(raised_for_costs),
-    }
+    let made = py.detach(|| work(limits));
+    interruption.take().map_or(Ok(made), Err)
 }
 
 /// The exception for costs that cannot be.
@@ -161,10 +161,15 @@ pub(crate) fn costs_of_steps(
 /// The costs in a few words, with numbers of six digits.
 pub(crate) fn in_words(py: Python<'_>, costs: &Costs) -> PyResult<String> {
     let short = |number: f64| PyFloat::new(py, number).call_method1("__format__", (".6g",));
-    let ((least, greatest), (width, height)) = (costs.bounds(), costs.cell_size());
-    let size = match (width, height) {
+    let ((least, greatest), size) = (costs.bounds(), cells_in_words(py, costs.cell_size())?);
+    Ok(format!(", costs {} to {}{size}", short(least)?, short(greatest)?))
+}
+
+/// The size of cells in a few words, if it is another one than 1 × 1.
+pub(crate) fn cells_in_words(py: Python<'_>, (width, height): (f64, f64)) -> PyResult<String> {
+    let short = |number: f64| PyFloat::new(py, number).call_method1("__format__", (".6g",));
+    Ok(match (width, height) {
         (1.0, 1.0) => String::new(),
         _ => format!(", cells of {} × {}", short(height)?, short(width)?),
-    };
-    Ok(format!(", costs {} to {}{size}", short(least)?, short(greatest)?))
+    })
 }

@@ -1,6 +1,6 @@
 //! Distance fields.
 
-use mediant::{DirectionCode, Ground, PlacementKind, Vertex, names};
+use mediant::{DirectionCode, ErrorCode, Ground, PlacementKind, Vertex, names};
 use mediant_formats::Picture;
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyBytes};
@@ -8,13 +8,14 @@ use pyo3::{prelude::*, types::PyBytes};
 use crate::{
     arguments::{point as vertex, word},
     arrays::{PathPoints, png_of, rows_array},
-    errors::{raised, wrong_type},
+    errors::{exception, raised, wrong_type},
 };
 
 /// The distance of every vertex to the nearest of one or several sources, with the paths to it.
 ///
 /// `Grid.field` makes it. Where cells have costs it has the least costs in place of distances: what GIS calls
-/// a cost distance.
+/// a cost distance. Over elevation a field has a heading: it has the times of the ways to the nearest source,
+/// or of those from it.
 ///
 /// Attributes
 /// ----------
@@ -34,11 +35,49 @@ pub(crate) struct Field {
     inner: mediant::Field,
     placement: PlacementKind,
     ground: Ground,
+    heading: Heading,
+}
+
+/// Whether paths lead to the sources of a field or from them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Heading {
+    To,
+    From,
+}
+
+names!(Heading: To => "to", From => "from");
+
+impl Heading {
+    /// That of an argument; the usual one if it was left out.
+    pub(crate) fn read(value: Option<&Bound<'_, PyAny>>, usual: Self) -> PyResult<Self> {
+        value.map_or(Ok(usual), |value| word("heading", value))
+    }
 }
 
 impl Field {
-    pub(crate) const fn new(inner: mediant::Field, placement: PlacementKind, ground: Ground) -> Self {
-        Self { inner, placement, ground }
+    pub(crate) const fn new(
+        inner: mediant::Field,
+        placement: PlacementKind,
+        ground: Ground,
+        heading: Heading,
+    ) -> Self {
+        Self { inner, placement, ground, heading }
+    }
+
+    /// Refuses the paths of the other heading, where a way and the way back differ.
+    fn check_heading(&self, heading: Heading) -> PyResult<()> {
+        if self.ground.walking().is_none() || self.heading == heading {
+            return Ok(());
+        }
+        let (known, needed) = match heading {
+            Heading::To => ("path_to", "to"),
+            Heading::From => ("path_from", "from"),
+        };
+        let text = format!(
+            "over elevation a way and the way back differ: this field has {known}; make one with \
+             heading='{needed}'"
+        );
+        Err(exception("MismatchError", &text, ErrorCode::Mismatch.name()))
     }
 
     /// The distances of all vertices, of a field that is not needed any more.
@@ -81,7 +120,8 @@ impl Field {
         rows_array(py, lengths, self.inner.width() as usize)
     }
 
-    /// The directions in which the shortest paths leave the vertices.
+    /// The directions in which the shortest paths leave the vertices; of a field from its sources over
+    /// elevation those back along the paths to them.
     ///
     /// Returns
     /// -------
@@ -106,7 +146,8 @@ impl Field {
 
     /// The vertices to which the shortest paths lead next: one move away. At any angle the next corner of an
     /// obstacle on the path, or the source: mostly where the path first bends, but it may also go straight on
-    /// there, where its line only touches the corner. `path_from` has waypoints at bends alone.
+    /// there, where its line only touches the corner. `path_from` has waypoints at bends alone. Of a field
+    /// from its sources over elevation it is the vertex before, on the path from the source.
     ///
     /// Returns
     /// -------
@@ -164,6 +205,11 @@ impl Field {
     /// numpy.ndarray or None
     ///     Shape (n, 2), int32; None where no path leads, or the point is blocked or outside the map.
     ///
+    /// Raises
+    /// ------
+    /// MismatchError
+    ///     Over elevation, for a field from its sources: it has `path_to`.
+    ///
     /// Examples
     /// --------
     /// See `Field`.
@@ -174,7 +220,44 @@ impl Field {
         points: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
         let (py, points) = (point.py(), PathPoints::read(points)?);
+        self.check_heading(Heading::To)?;
         let path = self.inner.path_from(vertex("point", point)?);
+        path.map(|path| points.array(py, &path, self.placement)).transpose()
+    }
+
+    /// The shortest path from the nearest source to a vertex: `path_from` the other way.
+    ///
+    /// Parameters
+    /// ----------
+    /// point : tuple of int
+    ///     (row, column).
+    /// points : {"waypoints", "vertices", "touched"}
+    ///     The points of the array: see `Grid.find`.
+    ///
+    /// Returns
+    /// -------
+    /// numpy.ndarray or None
+    ///     As of `path_from`.
+    ///
+    /// Raises
+    /// ------
+    /// MismatchError
+    ///     Over elevation, for a field to its sources.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> mediant.Grid.from_rows(["...", "..."]).field((0, 0)).path_to((1, 2)).tolist()
+    /// [[0, 0], [0, 1], [1, 2]]
+    #[pyo3(signature = (point, *, points = None), text_signature = "($self, point, *, points='waypoints')")]
+    fn path_to<'py>(
+        &self,
+        point: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+        let (py, points) = (point.py(), PathPoints::read(points)?);
+        self.check_heading(Heading::From)?;
+        let path = self.inner.path_to(vertex("point", point)?);
         path.map(|path| points.array(py, &path, self.placement)).transpose()
     }
 
@@ -260,7 +343,7 @@ impl Field {
     /// Parameters
     /// ----------
     /// other : Field
-    ///     Of the same grid and motion.
+    ///     Of the same grid and motion; over elevation of the other heading.
     ///
     /// Returns
     /// -------
@@ -270,7 +353,7 @@ impl Field {
     /// Raises
     /// ------
     /// MismatchError
-    ///     For fields of different grids or motions.
+    ///     For fields of different grids or motions, and over elevation for two of the same heading.
     ///
     /// Examples
     /// --------
@@ -296,7 +379,7 @@ impl Field {
     /// Returns
     /// -------
     /// xarray.DataArray
-    ///     Named ``"distance"``, where cells have costs ``"cost"``; ``inf`` where no path leads.
+    ///     Named ``"distance"``, where paths have costs ``"cost"``; ``inf`` where no path leads.
     ///
     /// Raises
     /// ------
@@ -311,7 +394,7 @@ impl Field {
     /// >>> field.to_xarray(costs).plot()  # doctest: +SKIP
     fn to_xarray<'py>(&self, like: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let py = like.py();
-        let name = if self.ground.costs().is_some() { "cost" } else { "distance" };
+        let name = if matches!(self.ground, Ground::Map(_)) { "distance" } else { "cost" };
         let make = py.import("mediant._rasters")?.getattr("like_raster")?;
         make.call1((self.distances(py)?, like, name))
     }

@@ -5,7 +5,7 @@
 //!   mistake names its argument.
 //! - `grid`, `index`, `field`, `world`, `scenario`: the classes. All are frozen, so threads share them.
 //! - `answer`, `paths`, `spaced`: what `find` and batches answer, and points along a path.
-//! - `arrays`, `costs`: maps and costs from arrays, and arrays from paths and costs.
+//! - `arrays`, `costs`, `walking`: maps, costs and elevations from arrays, and arrays from them and paths.
 //! - `background`: the GIL is released wherever the library works; Ctrl-C is looked at while it does.
 //! - `errors`: the library's errors as exceptions.
 //!
@@ -41,4 +41,5 @@ mod module;
 mod paths;
 mod scenario;
 mod spaced;
+mod walking;
 mod world;

@@ -79,7 +79,7 @@ def all_calls():
     dicts = _typed_dicts(tree)
     owners = [("", tree.body), *((c.name, c.body) for c in tree.body if isinstance(c, ast.ClassDef))]
     for owner, body in owners:
-        if owner in dicts or owner == "DataArray":
+        if owner in dicts or owner in ("DataArray", "Dataset"):
             continue
         for node in body:
             decorators = [ast.unparse(d) for d in getattr(node, "decorator_list", [])]
@@ -160,6 +160,8 @@ class Things:
             arguments["array"] = np.arange(12).reshape(3, 4)
         if call.name == "__new__" and "cell_size" in mistaken:
             arguments["costs"] = np.full((3, 4), 2.5)
+        if call.name == "from_elevation" and "transform" not in mistaken:
+            arguments["cell_size"] = 10  # It is not known of an array.
         if call.name in ("for_disc", "disc") and "meters" not in mistaken:
             arguments["radius"] = 1.5  # One of the two is needed.
         engines = [TAKERS[name] for name in mistaken if name in TAKERS]
@@ -198,6 +200,9 @@ class Things:
             "shape": (3, 4),
             "world": mediant.World(0.5, shape=(6, 9)),
             "costs": np.full((3, 4), 2.5),
+            "elevation": np.arange(12).reshape(3, 4),
+            "friction": np.full((3, 4), 0.5),
+            "pace": [(-1, 2.0), (0, 0.7), (1, 5.0)],
             "cell_size": (2, 3),
             "nodata": -9999,
             "transform": (2.0, 0.0, 10.0, 0.0, -2.0, 50.0),
@@ -223,7 +228,7 @@ class Things:
             return by_name[parameter.name]
         kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}
         kinds.update({"Placement": "center", "Corners": "one", "Gap": "open", "Heuristic": "zero"})
-        kinds.update({"Variant": "exact", "Smooth": "taut"})
+        kinds.update({"Variant": "exact", "Smooth": "taut", "Heading": "from"})
         kind = parameter.type.split(" | ")[0].split("[")[0]
         if kind == "Literal":
             return ast.literal_eval(parameter.type.split("[")[1].split(",")[0].rstrip("]"))

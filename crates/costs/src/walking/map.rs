@@ -48,7 +48,30 @@ pub struct WalkingMap {
     time_exponent: i32,
     /// The unit of costs is 2 to this.
     exponent: i32,
+    bounds: WalkingBounds,
     id: MapId,
+}
+
+/// The bounds of the elevations and of the frictions of a map to walk on, as they were given. All its units
+/// follow from them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WalkingBounds {
+    /// The lowest and the highest elevation.
+    pub elevation: (f64, f64),
+    /// The least and the greatest friction.
+    pub friction: (f64, f64),
+}
+
+impl WalkingBounds {
+    fn are_numbers(&self) -> bool {
+        let is_range = |(least, greatest): (f64, f64)| least <= greatest && (greatest - least).is_finite();
+        is_range(self.elevation) && is_range(self.friction) && self.friction.0 >= 0.0
+    }
+}
+
+/// The number of a range that is nearest.
+const fn within((least, greatest): (f64, f64), number: f64) -> f64 {
+    number.max(least).min(greatest)
 }
 
 /// The friction of the cells.
@@ -99,7 +122,7 @@ impl<G: Fn(u32, u32) -> Option<(f64, f64)>> Cells<'_, G> {
     }
 
     /// The bounds of the elevations and of the frictions.
-    fn bounds(&self) -> Result<[(f64, f64); 2], WalkingError> {
+    fn bounds(&self) -> Result<WalkingBounds, WalkingError> {
         let mut bounds = None;
         self.visit(|(x, y), (elevation, friction)| {
             if !elevation.is_finite() {
@@ -115,7 +138,8 @@ impl<G: Fn(u32, u32) -> Option<(f64, f64)>> Cells<'_, G> {
             bounds = Some([widen(elevations, elevation), widen(frictions, friction)]);
             Ok(())
         })?;
-        Ok(bounds.unwrap_or_default())
+        let [elevation, friction] = bounds.unwrap_or_default();
+        Ok(WalkingBounds { elevation, friction })
     }
 
     /// A number for each position, `blocked` where there is no cell.
@@ -138,7 +162,7 @@ impl Friction {
     ) -> Result<Self, WalkingError> {
         let shift = (floor_log2(rough) - 31 - time_exponent).max(0) as u32;
         let unit = exp2(-time_exponent - shift as i32);
-        let whole = |friction: f64| (friction * unit).round() as u32;
+        let whole = |friction: f64| (within((smooth, rough), friction) * unit).round() as u32;
         let of = cells.numbers(0, |_, friction| whole(friction))?;
         let [least, greatest] = [smooth, rough].map(|friction| u64::from(whole(friction)) << shift);
         Ok(Self { of, shift, least, greatest })
@@ -146,7 +170,7 @@ impl Friction {
 }
 
 /// The bounds of the times of knots; a time that is not a number is the least.
-fn bounds(knots: &[(f64, f64)]) -> (f64, f64) {
+fn times_of(knots: &[(f64, f64)]) -> (f64, f64) {
     let times = knots.iter().map(|&(_, time)| time);
     times.fold((f64::INFINITY, 0.0), |(least, greatest), time| {
         (if time >= least { least } else { time }, greatest.max(time))
@@ -184,9 +208,36 @@ impl WalkingMap {
     /// # Errors
     /// As for [`new`](Self::new); [`WalkingError::Friction`].
     pub fn with_friction(
-        (width, height): (u32, u32),
+        size: (u32, u32),
         cell_size: (f64, f64),
         pace: &Pace,
+        interrupt: &Interrupt,
+        ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
+    ) -> Result<Self, WalkingError> {
+        Self::made(size, (cell_size, pace), None, interrupt, ground)
+    }
+
+    /// The map that had these [bounds](Self::ground_bounds), from the elevations and frictions that it has: a
+    /// copy that was sent elsewhere, equal to the first one. Bounds that are none count as not given, numbers
+    /// beyond them as the nearest one within.
+    ///
+    /// # Errors
+    /// As for [`with_friction`](Self::with_friction).
+    pub fn with_bounds(
+        size: (u32, u32),
+        cell_size: (f64, f64),
+        pace: &Pace,
+        bounds: WalkingBounds,
+        interrupt: &Interrupt,
+        ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
+    ) -> Result<Self, WalkingError> {
+        Self::made(size, (cell_size, pace), Some(bounds), interrupt, ground)
+    }
+
+    fn made(
+        (width, height): (u32, u32),
+        (cell_size, pace): ((f64, f64), &Pace),
+        bounds: Option<WalkingBounds>,
         interrupt: &Interrupt,
         ground: impl Fn(u32, u32) -> Option<(f64, f64)>,
     ) -> Result<Self, WalkingError> {
@@ -194,13 +245,16 @@ impl WalkingMap {
         let layout = Layout::new(width.into(), height.into()).ok_or(size)?;
         check_cell_size(cell_size)?;
         let cells = Cells { layout, interrupt, ground };
-        let [(lowest, highest), (smooth, rough)] = cells.bounds()?;
+        let found = cells.bounds()?;
+        let bounds = bounds.filter(WalkingBounds::are_numbers).unwrap_or(found);
+        let ((lowest, highest), (smooth, rough)) = (bounds.elevation, bounds.friction);
         let height_exponent = (floor_log2(highest - lowest) + 1 - DIGITS.0).max(-FINEST);
-        let above = |elevation: f64| ((elevation - lowest) * exp2(-height_exponent)).round() as i32;
+        let height = |elevation: f64| within(bounds.elevation, elevation) - lowest;
+        let above = |elevation: f64| (height(elevation) * exp2(-height_exponent)).round() as i32;
         let heights = cells.numbers(BLOCKED, |elevation, _| above(elevation))?;
         let steepest = steepest(layout, &heights, cell_size, interrupt)? * exp2(height_exponent);
         let knots = clip(&pace.knots(steepest)?, steepest);
-        let (least, greatest) = bounds(&knots);
+        let (least, greatest) = times_of(&knots);
         if !(least > 0.0 && greatest.is_finite()) {
             return Err(WalkingError::Pace { steepest, time: least });
         }
@@ -210,12 +264,12 @@ impl WalkingMap {
             return Err(range);
         }
         let time_exponent = floor_log2(greatest) + 1 - DIGITS.1;
-        let vertices = u64::from(width) * u64::from(height);
+        let vertices = u64::from(layout.width()) * u64::from(layout.height());
         let exponent = exponent(vertices, [least, greatest], cell_size).ok_or(range)?;
         let friction =
             if rough > 0.0 { Some(Friction::new(&cells, (smooth, rough), time_exponent)?) } else { None };
         let pace = PaceTable::new(&knots, steepest, time_exponent);
-        let id = MapId::of_size(width, height);
+        let id = MapId::of_size(layout.width(), layout.height());
         let mut map = Self {
             layout,
             cell_size,
@@ -226,6 +280,7 @@ impl WalkingMap {
             pace,
             time_exponent,
             exponent,
+            bounds,
             id,
         };
         map.id = map.identity(interrupt)?;
@@ -296,6 +351,12 @@ impl WalkingMap {
         let (least, greatest) = self.times();
         let unit = exp2(self.time_exponent);
         (least as f64 * unit, greatest as f64 * unit)
+    }
+
+    /// The bounds of the elevations and frictions, as they were given: see [`with_bounds`](Self::with_bounds).
+    #[must_use]
+    pub const fn ground_bounds(&self) -> WalkingBounds {
+        self.bounds
     }
 
     /// The unit of the integer costs of moves and paths on it: a power of two.

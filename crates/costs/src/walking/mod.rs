@@ -30,6 +30,6 @@ pub use self::{
     error::WalkingError,
     field::{Heading, WalkingField},
     graph::WalkingGraph,
-    map::WalkingMap,
+    map::{WalkingBounds, WalkingMap},
     pace::{Langmuir, Pace},
 };

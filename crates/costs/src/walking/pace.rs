@@ -65,14 +65,12 @@ const FASTEST: f64 = -0.05;
 /// Tobler's function is kept at multiples of 1 over this, and linear between: by 1.5·10⁻⁶ too slow at most.
 const STEPS: f64 = 1024.0;
 
-/// The paces that have a name.
-const NAMES: [&str; 2] = ["tobler", "langmuir"];
-
 /// `tobler`, or `langmuir` with its usual numbers.
 ///
 /// ```
 /// use mediant_costs::Pace;
 /// assert_eq!("Tobler".parse(), Ok(Pace::Tobler));
+/// assert_eq!(Pace::Tobler.name(), Some("tobler"));
 /// let error = "naismith".parse::<Pace>().unwrap_err();
 /// assert_eq!(error.to_string(), "expected one of tobler, langmuir, found `naismith`");
 /// ```
@@ -80,15 +78,29 @@ impl FromStr for Pace {
     type Err = UnknownName;
 
     fn from_str(text: &str) -> Result<Self, UnknownName> {
-        match NAMES.iter().position(|name| means(text, name)) {
+        match Self::NAMES.iter().position(|name| means(text, name)) {
             Some(0) => Ok(Self::Tobler),
             Some(_) => Ok(Self::Langmuir(Langmuir::default())),
-            None => Err(UnknownName { found: text.to_owned(), known: NAMES.join(", ") }),
+            None => Err(UnknownName { found: text.to_owned(), known: Self::NAMES.join(", ") }),
         }
     }
 }
 
 impl Pace {
+    /// The names of the paces that have one.
+    pub const NAMES: [&'static str; 2] = ["tobler", "langmuir"];
+
+    /// Its name; `None` for a table, and for Langmuir's rule with other numbers than the usual ones.
+    #[must_use]
+    pub fn name(&self) -> Option<&'static str> {
+        let [tobler, langmuir] = Self::NAMES;
+        match self {
+            Self::Tobler => Some(tobler),
+            Self::Langmuir(of) => (*of == Langmuir::default()).then_some(langmuir),
+            Self::Table(_) => None,
+        }
+    }
+
     /// The time of a unit of horizontal length on a slope. Maps have it as integers, and Tobler's function at
     /// multiples of 1/1024, linear between.
     #[must_use]

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use mediant::{
-    Change, Engine, Error, ErrorCode, Exceptions, K, Langmuir, Limits, Map, Motion, Pace, Path, Query,
-    Rectangle, Space, Vertex, Walking,
+    Change, Engine, Error, ErrorCode, Exceptions, Ground, K, Langmuir, Limits, Map, Motion, Pace, Path,
+    Query, Rectangle, Space, Vertex, Walking,
+    call::Call,
     errors::{QueryError, SetupError, WalkingError},
     files::{Georeference, Surface},
 };
@@ -336,4 +337,57 @@ fn what_was_prepared_follows_to_other_elevations() {
     }
     let other = index.for_k(K::N16).expect("k = 4");
     assert_eq!(other.space().walking(), flat.walking());
+}
+
+/// Spaces and planners are kept, without the map that keeps them; there is nothing saved and no edit.
+#[test]
+fn a_ground_of_elevations_keeps_its_planners() {
+    let walking = hill();
+    let ground = Ground::from(walking.clone());
+    assert_eq!((ground.walking(), ground.costs(), ground.map()), (Some(&walking), None, walking.map()));
+    let setup = ground.setup(&Call::default()).expect("k = 3");
+    assert_eq!((setup.engine.kind(), setup.motion), (Engine::AStar, Motion::centers(3)));
+    assert!(ground.kept_space(setup.motion).is_none() && ground.kept_planners(&setup).is_none());
+    let planners = ground.keep_planners(&setup, Limits::new()).expect("k = 3");
+    assert!(Arc::ptr_eq(&planners, &ground.keep_planners(&setup, Limits::new()).expect("k = 3")));
+    let space = ground.kept_space(setup.motion).expect("it is kept");
+    assert_eq!(space.walking(), Some(&walking));
+    for ends in [[(0, 0), (3, 2)], [(3, 2), (0, 0)]] {
+        let found = planners.find(ends).expect("free");
+        let wanted = space.path(ends[0], ends[1]).expect("free").map(|path| path.cost());
+        assert_eq!(found.cost(), wanted);
+    }
+    let jumps = ground.setup(&Call::default().with_engine(Some(Engine::Jps))).expect("a setup");
+    assert!(matches!(ground.keep_planners(&jumps, Limits::new()), Err(Error::Setup(_))));
+    let all = Rectangle::new(0, 0, 4, 3);
+    assert_eq!(code(ground.edit(all, |_, _| true)).0, ErrorCode::EngineWithout);
+    assert_eq!(code(ground.edit_cells([((0, 0), true)])).0, ErrorCode::EngineWithout);
+    assert!(ground.edit_costs([((0, 0), Some(1.0))]).is_err());
+    assert_eq!(code(ground.load("no such file", Limits::new())).0, ErrorCode::EngineWithout);
+    assert_eq!(code(ground.index_from_bytes(vec![1], Limits::new())).0, ErrorCode::EngineWithout);
+    drop((planners, space));
+    let kept = Arc::downgrade(walking.ground());
+    drop((ground, walking));
+    assert!(kept.upgrade().is_none());
+}
+
+#[test]
+fn copies_are_equal() {
+    let heights = [0.1, 7.3, 2.9, 4.0, 4.1, 0.7];
+    let map = Map::from_rows(["...", ".#."]).expect("a map");
+    let at = |x: u32, y: u32| (y * 3 + x) as usize;
+    let (size, pace, limits) = ((20.0, 30.0), Pace::Langmuir(Langmuir::default()), Limits::new());
+    let ground = |x: u32, y: u32| (heights[at(x, y)], heights[at(x, y)] / 70.0);
+    let walking = map.walking_by(size, &pace, &limits, ground).expect("elevations");
+    let frictions = heights.map(|height| height / 70.0);
+    assert_eq!(map.walking_with_friction(heights, frictions, size, &pace).ok().as_ref(), Some(&walking));
+    assert_eq!((walking.pace(), walking.ground_bounds().elevation), (&pace, (0.1, 7.3)));
+    let again = |x: u32, y: u32| {
+        let at = (x as i32, y as i32);
+        (walking.elevation(at).expect("free"), walking.friction(at).expect("free"))
+    };
+    let copy = map.walking_in(walking.ground_bounds(), size, &pace, &limits, again);
+    assert_eq!(copy.ok().as_ref(), Some(&walking));
+    let stop = Limits::new().deadline(|| true);
+    assert_eq!(code(map.walking_by(size, &pace, &stop, ground)).0, ErrorCode::Stopped);
 }

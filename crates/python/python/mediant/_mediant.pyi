@@ -45,10 +45,22 @@ class DataArray(Protocol):
     @property
     def values(self) -> Any: ...
 
+class Dataset(Protocol):
+    """A dataset of rasterio, by what is read of it."""
+
+    @property
+    def count(self) -> int: ...
+    @property
+    def crs(self) -> Any: ...
+    @property
+    def transform(self) -> Any: ...
+    def read(self, indexes: int, /, *, masked: bool) -> Any: ...
+
 Raster = TypeVar("Raster", bound=DataArray)
 
 K: TypeAlias = SupportsIndex | Literal["any"]
 PathPoints: TypeAlias = Literal["waypoints", "vertices", "touched"]
+Heading: TypeAlias = Literal["to", "from"]
 
 # described: calls
 Placement: TypeAlias = Literal["center", "corner"]
@@ -131,8 +143,19 @@ class Grid:
     ) -> Self: ...
     @staticmethod
     def from_costs(
-        costs: ArrayLike | DataArray,
+        costs: ArrayLike | DataArray | Dataset,
         *,
+        nodata: SupportsFloat | Iterable[SupportsFloat] | None = None,
+        cell_size: CellSize | None = None,
+        transform: Iterable[SupportsFloat] | None = None,
+        world: World | None = None,
+    ) -> Grid: ...
+    @staticmethod
+    def from_elevation(
+        elevation: ArrayLike | DataArray | Dataset,
+        *,
+        pace: Literal["tobler", "langmuir"] | ArrayLike = "tobler",
+        friction: ArrayLike | DataArray | Dataset | None = None,
         nodata: SupportsFloat | Iterable[SupportsFloat] | None = None,
         cell_size: CellSize | None = None,
         transform: Iterable[SupportsFloat] | None = None,
@@ -181,6 +204,12 @@ class Grid:
     def costs(self) -> NDArray[np.float64] | None: ...
     @property
     def has_costs(self) -> bool: ...
+    @property
+    def elevation(self) -> NDArray[np.float64] | None: ...
+    @property
+    def friction(self) -> NDArray[np.float64] | None: ...
+    @property
+    def pace(self) -> Literal["tobler", "langmuir"] | NDArray[np.float64] | None: ...
     @property
     def cell_size(self) -> tuple[float, float]: ...
     def to_numpy(self) -> NDArray[np.bool_]: ...
@@ -249,14 +278,36 @@ class Grid:
     def load(self, path: str | os.PathLike[str], **options: Unpack[Options]) -> Index: ...
     def index_from_bytes(self, data: bytes, **options: Unpack[Options]) -> Index: ...
     def field(
-        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+        self,
+        sources: Points,
+        *,
+        limit: SupportsFloat | None = None,
+        heading: Heading = "to",
+        **motion: Unpack[Motion],
     ) -> Field: ...
     def distances(
-        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+        self,
+        sources: Points,
+        *,
+        limit: SupportsFloat | None = None,
+        heading: Heading = "to",
+        **motion: Unpack[Motion],
     ) -> NDArray[np.float64]: ...
-    def reach(self, sources: Points, limit: SupportsFloat, **motion: Unpack[Motion]) -> NDArray[np.bool_]: ...
+    def reach(
+        self,
+        sources: Points,
+        limit: SupportsFloat,
+        *,
+        heading: Heading = "from",
+        **motion: Unpack[Motion],
+    ) -> NDArray[np.bool_]: ...
     def flow(
-        self, sources: Points, *, limit: SupportsFloat | None = None, **motion: Unpack[Motion]
+        self,
+        sources: Points,
+        *,
+        limit: SupportsFloat | None = None,
+        heading: Heading = "to",
+        **motion: Unpack[Motion],
     ) -> NDArray[np.float64]: ...
     def clearance(
         self,
@@ -477,6 +528,7 @@ class Field:
     def next(self) -> NDArray[np.int32]: ...
     def get(self, point: Point) -> float: ...
     def path_from(self, point: Point, *, points: PathPoints = "waypoints") -> NDArray[np.int32] | None: ...
+    def path_to(self, point: Point, *, points: PathPoints = "waypoints") -> NDArray[np.int32] | None: ...
     def nearest_source(self, point: Point) -> tuple[int, int] | None: ...
     def allocation(self) -> NDArray[np.int32]: ...
     def directions(self, code: Literal["arcgis", "degrees", "grass"]) -> NDArray[np.float64]: ...

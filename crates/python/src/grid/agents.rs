@@ -114,6 +114,7 @@ impl Grid {
         outside: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Self> {
+        self.without_elevation()?;
         let motion = Keywords::read("for_disc", motion, MOTION)?.motion()?;
         let fit = read_fit(fit)?.unwrap_or_else(|| Fit::exact(motion.rules, motion.k));
         let (cells, outside) = (self.radius(radius, meters)?, read_outside(outside)?);

@@ -76,7 +76,7 @@ impl Grid {
     ) -> PyResult<Self> {
         let read = costs.py().import("mediant._rasters")?.getattr("read")?;
         let (numbers, blocked, size): (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>) =
-            read.call1((costs, nodata, cell_size, transform))?.extract()?;
+            read.call1(("costs", costs, nodata, cell_size, transform))?.extract()?;
         let map = map_of_bools("costs", blocked.cast()?)?;
         let world = world.map_or(Ok(None), |world| placed(world, &map))?;
         Ok(Self::new(costs_of(&numbers, &map, self::cell_size(Some(&size))?)?, world))
@@ -97,7 +97,11 @@ impl Grid {
     /// The height and the width of a cell.
     #[getter(cell_size)]
     fn size_of_cells(&self) -> (f64, f64) {
-        let (width, height) = self.ground().costs().map_or((1.0, 1.0), mediant::Costs::cell_size);
+        let (width, height) = match self.ground() {
+            Ground::Map(_) => (1.0, 1.0),
+            Ground::Costs(costs) => costs.cell_size(),
+            Ground::Walking(walking) => walking.cell_size(),
+        };
         (height, width)
     }
 
@@ -134,7 +138,7 @@ impl Grid {
     fn edit_costs(&self, cells: &Bound<'_, PyAny>, costs: &Bound<'_, PyAny>) -> PyResult<Self> {
         let at = cells_on("cells", cells, self.map())?;
         let costs = each("costs", costs, at.len())?;
-        if let Ground::Map(_) = self.ground() {
+        if self.ground().costs().is_none() {
             let text = "cells: this grid has no costs of cells: make it with costs=, or by Grid.from_costs";
             return Err(exception("MapError", text, "cost"));
         }

@@ -32,6 +32,8 @@ impl Grid {
     /// MapError
     ///     For a rectangle that is not wholly on the map; where cells have costs, for a blocked cell that is
     ///     freed: `edit_costs` gives it a cost.
+    /// OptionError
+    ///     Where cells have elevations.
     ///
     /// Examples
     /// --------
@@ -40,6 +42,7 @@ impl Grid {
     /// >>> grid.edit((0, 1), [[True], [True]]).distance((0, 0), (0, 2))
     /// inf
     fn edit(&self, at: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.without_elevation()?;
         match Patch::read(self.map(), at, blocked)? {
             Some(patch) => {
                 let edited = self.ground().edit(patch.at, |x, y| patch.is_blocked(x, y));
@@ -68,6 +71,8 @@ impl Grid {
     /// ------
     /// MapError
     ///     For a cell outside the map, and as `edit`.
+    /// OptionError
+    ///     As `edit`.
     /// ArgumentError
     ///     For another number of values than of cells.
     ///
@@ -78,6 +83,7 @@ impl Grid {
     /// >>> grid.edit_cells([(0, 0), (1, 2)], True).to_numpy().astype(int).tolist()
     /// [[1, 0, 0], [0, 0, 1]]
     fn edit_cells(&self, cells: &Bound<'_, PyAny>, blocked: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.without_elevation()?;
         let cells = cells_on("cells", cells, self.map())?;
         let blocked = flags("blocked", blocked, cells.len())?;
         let edited = self.ground().edit_cells(cells.into_iter().zip(blocked)).map_err(raised)?;

@@ -8,7 +8,7 @@ use crate::{
     arguments::{Points, numpy_function, positive},
     background::detached,
     errors::raised_for,
-    field::Field,
+    field::{Field, Heading},
     keywords::{Keywords, MOTION},
 };
 
@@ -23,6 +23,8 @@ impl Grid {
     /// limit : float, optional
     ///     The greatest distance, in cells, or the greatest cost where cells have costs. A vertex at exactly
     ///     that distance is in the field: the distance of a vertex, as a limit, reaches that vertex.
+    /// heading : {"to", "from"}
+    ///     Whether paths lead to the nearest source or from it: over elevation they take different times.
     /// **motion
     ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
@@ -42,16 +44,18 @@ impl Grid {
     /// >>> mediant.Grid.from_rows(["...", "..."]).field((0, 0)).path_from((1, 2)).tolist()
     /// [[1, 2], [0, 1], [0, 0]]
     #[pyo3(
-        signature = (sources, *, limit = None, **motion),
-        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+        signature = (sources, *, limit = None, heading = None, **motion),
+        text_signature = "($self, sources, *, limit=None, heading='to', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None)"
     )]
     fn field(
         &self,
         sources: &Bound<'_, PyAny>,
         limit: Option<&Bound<'_, PyAny>>,
+        heading: Option<&Bound<'_, PyAny>>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Field> {
-        self.field_of("field", sources, limit, motion)
+        self.field_of("field", sources, limit, Heading::read(heading, Heading::To)?, motion)
     }
 
     /// The distances of all vertices to the nearest source.
@@ -61,6 +65,8 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float, optional
+    ///     As in `field`.
+    /// heading : {"to", "from"}
     ///     As in `field`.
     /// **motion
     ///     As in `find`.
@@ -82,16 +88,19 @@ impl Grid {
     /// >>> mediant.Grid.from_rows([".#.", "..."]).distances((0, 0), k=2).tolist()
     /// [[0.0, inf, 4.0], [1.0, 2.0, 3.0]]
     #[pyo3(
-        signature = (sources, *, limit = None, **motion),
-        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+        signature = (sources, *, limit = None, heading = None, **motion),
+        text_signature = "($self, sources, *, limit=None, heading='to', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None)"
     )]
     fn distances<'py>(
         &self,
         sources: &Bound<'py, PyAny>,
         limit: Option<&Bound<'py, PyAny>>,
+        heading: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.field_of("distances", sources, limit, motion)?.into_distances(sources.py())
+        let heading = Heading::read(heading, Heading::To)?;
+        self.field_of("distances", sources, limit, heading, motion)?.into_distances(sources.py())
     }
 
     /// The vertices that can be reached within a distance.
@@ -101,7 +110,9 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float
-    ///     The greatest distance, in cells; a vertex at exactly that distance is reached.
+    ///     The greatest distance, in cells, or the greatest cost; a vertex at exactly that distance is reached.
+    /// heading : {"from", "to"}
+    ///     As in `field`.
     /// **motion
     ///     As in `find`.
     ///
@@ -121,16 +132,19 @@ impl Grid {
     /// >>> mediant.Grid.from_rows(["....", "...."]).reach((0, 0), 1.5).astype(int).tolist()
     /// [[1, 1, 0, 0], [1, 1, 0, 0]]
     #[pyo3(
-        signature = (sources, limit, **motion),
-        text_signature = "($self, sources, limit, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+        signature = (sources, limit, *, heading = None, **motion),
+        text_signature = "($self, sources, limit, *, heading='from', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None)"
     )]
     fn reach<'py>(
         &self,
         sources: &Bound<'py, PyAny>,
         limit: &Bound<'py, PyAny>,
+        heading: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let field = self.field_of("reach", sources, Some(limit), motion)?;
+        let heading = Heading::read(heading, Heading::From)?;
+        let field = self.field_of("reach", sources, Some(limit), heading, motion)?;
         numpy_function(sources.py(), "isfinite")?.call1((field.into_distances(sources.py())?,))
     }
 
@@ -141,6 +155,8 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float, optional
+    ///     As in `field`.
+    /// heading : {"to", "from"}
     ///     As in `field`.
     /// **motion
     ///     As in `find`.
@@ -162,16 +178,19 @@ impl Grid {
     /// >>> mediant.Grid.from_rows(["..", ".."]).flow((0, 0)).round(2).tolist()
     /// [[[0.0, 0.0], [0.0, -1.0]], [[-1.0, 0.0], [-0.71, -0.71]]]
     #[pyo3(
-        signature = (sources, *, limit = None, **motion),
-        text_signature = "($self, sources, *, limit=None, k=None, neighbors=None, placement=None, corners=None, gap=None)"
+        signature = (sources, *, limit = None, heading = None, **motion),
+        text_signature = "($self, sources, *, limit=None, heading='to', k=None, neighbors=None, placement=None, \
+            corners=None, gap=None)"
     )]
     fn flow<'py>(
         &self,
         sources: &Bound<'py, PyAny>,
         limit: Option<&Bound<'py, PyAny>>,
+        heading: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.field_of("flow", sources, limit, motion)?.flow(sources.py())
+        let heading = Heading::read(heading, Heading::To)?;
+        self.field_of("flow", sources, limit, heading, motion)?.flow(sources.py())
     }
 }
 
@@ -182,6 +201,7 @@ impl Grid {
         function: &str,
         sources: &Bound<'_, PyAny>,
         limit: Option<&Bound<'_, PyAny>>,
+        heading: Heading,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Field> {
         let py = sources.py();
@@ -190,12 +210,13 @@ impl Grid {
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
         let space = self.space(py, motion)?;
-        let work = move |limits: &Limits| match limit {
-            Some(limit) => space.within(limits).field_within(sources, limit),
-            None => space.within(limits).field(sources),
+        let limit = limit.unwrap_or(f64::INFINITY);
+        let work = move |limits: &Limits| match heading {
+            Heading::To => space.within(limits).field_within(sources, limit),
+            Heading::From => space.within(limits).field_from_within(sources, limit),
         };
         let field =
             detached(py, self.cells(), Limits::new(), work)?.map_err(|error| raised_for("source", error))?;
-        Ok(Field::new(field, motion.rules.placement(), self.ground().clone()))
+        Ok(Field::new(field, motion.rules.placement(), self.ground().clone(), heading))
     }
 }

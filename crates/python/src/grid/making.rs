@@ -3,7 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    CornerRule, CostUnits, Costs, Ground, Limits, Map, PlacementKind, Rules,
+    CornerRule, CostUnits, Ground, Limits, Map, PlacementKind, Rules,
     files::{Fraction, MapOptions, RosVersion, Tiles, WorldFrame},
     grid::{Identity, MapId},
 };
@@ -13,7 +13,7 @@ use pyo3::{
     types::{PyBytes, PyDict, PyString, PyTuple},
 };
 
-use super::{Grid, occupancy::frame};
+use super::{Grid, elevation::state_of, occupancy::frame};
 use crate::{
     arguments::{file, flag, integer, number, text, word},
     arrays::{Criteria, bits_of, cells_of, map_of, map_of_bits, png_of},
@@ -21,6 +21,7 @@ use crate::{
     costs,
     errors::{argument, instead, raised, raised_for, wrong_type},
     keywords::unknown_keyword,
+    walking,
     world::{World, placed},
 };
 
@@ -215,7 +216,7 @@ impl Grid {
         self.shared.world.map(|frame| World { frame })
     }
 
-    /// A name of the content: the same for grids with the same cells, and costs.
+    /// A name of the content: the same for grids with the same cells, and costs or elevations.
     #[getter]
     fn id(&self) -> String {
         let identity =
@@ -266,7 +267,7 @@ impl Grid {
     }
 
     /// By the bits of the cells, row by row in whole bytes, and the place in the world, for pickle; costs by
-    /// four bytes a cell, and what these stand for.
+    /// four bytes a cell, and what these stand for; elevations by arrays.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, grid) = (slf.py(), slf.get());
         let (rows, columns) = grid.shape();
@@ -276,6 +277,10 @@ impl Grid {
             let steps = PyBytes::new(py, &py.detach(|| costs::steps_of(costs)));
             let state = (steps, rows, columns, world, (bounds, step, cell_size)).into_pyobject(py)?;
             return Ok((slf.get_type().getattr("_of_costs")?, state));
+        }
+        if let Ground::Walking(walking) = grid.ground() {
+            let state = state_of(py, walking, grid.shared.world)?;
+            return Ok((slf.get_type().getattr("_of_walking")?, state));
         }
         let bits = PyBytes::new(py, &py.detach(|| bits_of(grid.map())));
         Ok((slf.get_type().getattr("_of_state")?, (bits, rows, columns, world).into_pyobject(py)?))
@@ -317,35 +322,45 @@ impl Grid {
         Ok(Self::new(costs, frame_of(world, rows, columns)?))
     }
 
-    /// The map as a picture, for notebooks; costs by their colors.
+    /// The map as a picture, for notebooks; costs and elevations by their colors.
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let picture = Picture::new(self.map().grid(), PlacementKind::Center);
         match self.ground() {
             Ground::Map(_) => png_of(py, picture),
             Ground::Costs(costs) => png_of(py, picture.field(|at| costs.cost(at))),
+            Ground::Walking(walking) => png_of(py, picture.field(|at| walking.elevation(at))),
         }
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         let map = self.map();
         let (height, width, blocked) = (map.height(), map.width(), self.cells() - map.grid().free_cells());
-        let of_costs = match self.ground() {
+        let more = match self.ground() {
             Ground::Map(_) => String::new(),
             Ground::Costs(costs) => costs::in_words(py, costs)?,
+            Ground::Walking(walking) => walking::in_words(py, walking)?,
         };
-        Ok(format!("<mediant.Grid of {height} × {width} cells, {blocked} blocked{of_costs}>"))
+        Ok(format!("<mediant.Grid of {height} × {width} cells, {blocked} blocked{more}>"))
     }
 }
 
 impl Grid {
-    /// The identity of the map, or of its costs.
+    /// The identity of the map, of its costs or of its elevations.
     fn map_id(&self) -> MapId {
-        self.ground().costs().map_or_else(|| self.map().id(), Costs::id)
+        match self.ground() {
+            Ground::Map(map) => map.id(),
+            Ground::Costs(costs) => costs.id(),
+            Ground::Walking(walking) => walking.id(),
+        }
     }
 }
 
 /// The place in the world of a state.
-fn frame_of(world: Option<(f64, [f64; 3])>, rows: u32, columns: u32) -> PyResult<Option<WorldFrame>> {
+pub(super) fn frame_of(
+    world: Option<(f64, [f64; 3])>,
+    rows: u32,
+    columns: u32,
+) -> PyResult<Option<WorldFrame>> {
     let frame = world.map(|(resolution, origin)| WorldFrame::new(resolution, origin, columns, rows));
     frame.transpose().map_err(|error| argument("world", &error.to_string()))
 }

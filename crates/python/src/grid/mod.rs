@@ -6,6 +6,7 @@ mod costmaps;
 mod costs;
 mod disc;
 mod edits;
+mod elevation;
 mod fields;
 mod making;
 mod motion;
@@ -24,7 +25,7 @@ use crate::{
     keywords::{Keywords, call_error},
 };
 
-/// A map: which cells are blocked, and perhaps the costs of the others.
+/// A map: which cells are blocked, and perhaps the costs or the elevations of the others.
 ///
 /// Cell (row, column) is counted from the top left corner.
 ///
@@ -65,12 +66,19 @@ use crate::{
 /// world : World or None
 ///     Where the map is in the world, if that was said.
 /// id : str
-///     A name of the content: the same for grids with the same cells, and costs.
+///     A name of the content: the same for grids with the same cells, and costs or elevations.
 /// costs : numpy.ndarray or None
 ///     The costs of the cells, shape (rows, columns), float64: ``nan`` in blocked cells; None if cells have
 ///     none. A new array each time. Costs that are not integers are rounded by 2**-32 of the greatest.
 /// has_costs : bool
 ///     Whether cells have costs.
+/// elevation : numpy.ndarray or None
+///     The elevations of the cells of a grid that `from_elevation` made, shape (rows, columns), float64:
+///     ``nan`` in blocked cells. A new array each time, rounded by 2**-30 of their range.
+/// friction : numpy.ndarray or None
+///     The frictions beside the elevations, if there are any.
+/// pace : str or numpy.ndarray or None
+///     The pace over elevation: its name, or its table of slopes and times.
 /// cell_size : tuple of float
 ///     The height and the width of a cell; (1.0, 1.0) if nothing else was said.
 ///
@@ -122,7 +130,7 @@ impl Grid {
     fn without_costs(&self, what: &'static str, instead: &'static str) -> PyResult<()> {
         match self.ground() {
             Ground::Map(_) => Ok(()),
-            Ground::Costs(_) => Err(raised(Error::from(SetupError::WithCosts { what, instead }))),
+            _ => Err(raised(Error::from(SetupError::WithCosts { what, instead }))),
         }
     }
 

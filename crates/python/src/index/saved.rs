@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Change, Limits, Map, Setup};
+use mediant::{Change, Ground, Limits, Map, Setup};
 use pyo3::{
     prelude::*,
     types::{PyBytes, PyDict, PyTuple},
@@ -90,10 +90,10 @@ impl Index {
             let size = |map: &Map| (map.width(), map.height());
             if change.cells().len() > MOST_TILES
                 || size(ground.map()) != size(index.space().map())
-                || ground.costs().is_some()
+                || !matches!(ground, Ground::Map(_))
             {
-                // Following the change would take longer than a second look for Ctrl-C may. Costs keep a
-                // space that follows them.
+                // Following the change would take longer than a second look for Ctrl-C may. Costs and
+                // elevations keep a space of their own.
                 let space = ground.keep_space(index.setup().motion, limits)?;
                 change = Change::between(index.space(), &space)?;
             }

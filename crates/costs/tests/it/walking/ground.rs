@@ -46,6 +46,10 @@ impl Ground {
         Self { map, elevations, friction: 0.125, smooth: 1.0, pace: Pace::Langmuir(Langmuir::default()) }
     }
 
+    pub(super) const fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
     fn random(seed: u64) -> (Self, String) {
         let (map, about) = random_weighted(seed);
         let mut rng = Rng::new(seed ^ 0xE1E7);

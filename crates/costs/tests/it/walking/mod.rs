@@ -1,5 +1,6 @@
 //! Walking over elevation.
 
+mod copies;
 mod creases;
 mod fields;
 mod ground;

@@ -9,6 +9,7 @@ from collections.abc import Callable, Hashable
 from concurrent.futures import Future
 
 from .._mediant import Index
+from ._sources import have_costs
 
 __all__ = ["Cache", "cache"]
 
@@ -129,9 +130,9 @@ class Cache:
 
 
 def _size(index: Index) -> int:
-    """Give the bytes of an index and of its map: a bit for a cell, and four bytes for its cost."""
+    """Give the bytes of an index and of its map: a bit for a cell, and four bytes for its cost or height."""
     rows, columns = index.grid.shape
-    return index.memory_bytes + rows * columns // 8 + 4 * rows * columns * index.grid.has_costs
+    return index.memory_bytes + rows * columns // 8 + 4 * rows * columns * have_costs(index.grid)
 
 
 def _is_ready(future: Future[Index]) -> bool:

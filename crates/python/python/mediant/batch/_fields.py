@@ -7,7 +7,7 @@ import uuid
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ def fields(
     maps: Any,
     *,
     limit: float | None = None,
+    heading: Literal["to", "from"] = "to",
     to: str | os.PathLike[str] | None = None,
     client: Any = None,
     threads: int | None = None,
@@ -42,9 +43,11 @@ def fields(
         By their names: a point (row, column), or several with shape (n, 2), to the nearest of which a field
         leads. If maps have keys: a pair of the key of a map and points on it.
     maps : Mapping, or one map
-        As for `Solver`: of rasters of costs those of `mediant.Grid.from_costs`.
+        As for `Solver`: of rasters those of `mediant.Grid.from_costs` and `mediant.Grid.from_elevation`.
     limit : float, optional
         The greatest distance or cost, as for `mediant.Grid.field`.
+    heading : {"to", "from"}
+        Whether the ways lead to the sources or from them, as for `mediant.Grid.field`.
     to : path, optional
         A folder that all workers can write to. Each field is written to it as ``<name>.npy``, and only the
         names of files come back.
@@ -81,7 +84,7 @@ def fields(
     """
     here = Solver(maps, engine=ENGINE, **motion)
     jobs = {name: _job_of(name, wanted, here) for name, wanted in sources.items()}
-    how = {"limit": limit, **motion}
+    how = {"limit": limit, "heading": heading, **motion}
     folder = None if to is None else os.path.abspath(os.fspath(to))
     files = {name: None if folder is None else _file_of(folder, name) for name in jobs}
     if folder is not None:

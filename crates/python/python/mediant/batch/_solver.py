@@ -14,7 +14,7 @@ from ..errors import MediantError, MismatchError, OptionError
 from ._cache import cache
 from ._columns import Queries, TableError, is_path, queries_of, table_of
 from ._results import INVALID, Results, schema_of
-from ._sources import OfIndex, Setup, Source, sources_of
+from ._sources import OfIndex, Setup, Source, have_costs, sources_of
 
 __all__ = ["Solver", "solve"]
 
@@ -92,10 +92,7 @@ class Solver:
         self.paths, self.threads, self._strict = paths, threads, _is_strict(invalid)
         if not all(isinstance(source, OfIndex) for source in self._sources.values()):
             # Mistakes are found here, not on a worker.
-            kinds = {
-                getattr(getattr(one, "grid", None), "has_costs", False) for one in self._sources.values()
-            }
-            for has_costs in kinds:
+            for has_costs in {have_costs(getattr(one, "grid", None)) for one in self._sources.values()}:
                 self._setup.prepare(Grid([[False]], costs=[[1]] if has_costs else None), 1)
 
     def __call__(self, queries: Any, *, progress: Progress | None = None, first_row: int = 0) -> pa.Table:

@@ -180,6 +180,11 @@ def source_of(value: OneMap, index: str | None = None, name: str = "the map") ->
     )
 
 
+def have_costs(grid: Grid | None) -> bool:
+    """Whether the paths of a grid have costs: its cells have costs or elevations."""
+    return grid is not None and (grid.has_costs or grid.pace is not None)
+
+
 def _load(grid: Grid, path: str, setup: Setup) -> Index:
     return setup.check(grid.load(path, **dict(setup.options)), repr(path))
 
