@@ -87,8 +87,13 @@ fn raised_for_walking(error: Error) -> PyErr {
         WalkingError::Friction { x, y, friction } => wrong(&format!(
             "friction: that of cell ({y}, {x}) is {friction}: it must be a number from 0 on; {blocked}"
         )),
-        error @ (WalkingError::Table | WalkingError::Pace { .. }) => argument("pace", &error.to_string()),
-        error @ WalkingError::Range { .. } => wrong(&format!("elevation: {error}")),
+        error @ WalkingError::Table => argument("pace", &error.to_string()),
+        error @ WalkingError::Pace { .. } => {
+            argument("pace", &format!("with this elevation and cell_size {error}"))
+        }
+        error @ WalkingError::Range { .. } => {
+            wrong(&format!("elevation: with this cell_size, pace and friction {error}"))
+        }
         error => raised(Error::from(error)),
     }
 }

@@ -84,6 +84,11 @@ CALLS = {
     ),
     "path on costs": (f"{COSTS}index = costly.prepare('astar', k=6)", "index.path(start, goal)"),
     "field on costs": (COSTS, "costly.field(start, k=6)"),
+    "reading elevations": ("", "while True: mediant.Grid.from_elevation(1.0 * blocked, cell_size=1)"),
+    "field over elevation": (
+        "land = mediant.Grid.from_elevation(rng.uniform(1, 9, blocked.shape), cell_size=9)",
+        "land.field(start, heading='from', k=6)",
+    ),
     "reading costs": (COSTS, "while True: mediant.Grid(blocked, costs=numbers)"),
     "widest": ("", "grid.widest_path(start, goal, surplus=0.5, k=4)"),
 }

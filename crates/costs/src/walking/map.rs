@@ -353,7 +353,7 @@ impl WalkingMap {
         (least as f64 * unit, greatest as f64 * unit)
     }
 
-    /// The bounds of the elevations and frictions, as they were given: see [`with_bounds`](Self::with_bounds).
+    /// The bounds of the elevations and frictions, as given, for [`with_bounds`](Self::with_bounds).
     #[must_use]
     pub const fn ground_bounds(&self) -> WalkingBounds {
         self.bounds

@@ -2,7 +2,8 @@
 
 Points are (row, column) everywhere, as in NumPy. A map is a 2-D array of bool, in which True is blocked; a
 path is an integer array of shape (n, 2), or None if there is none; distances are floats, infinite where no
-path leads. Cells may have costs (`Grid.from_costs`): paths are the cheapest then, and distances are costs.
+path leads. Cells may have costs (`Grid.from_costs`): paths are the cheapest then, and distances are costs. Or
+they have elevations (`Grid.from_elevation`): distances are the times of walking then.
 
 Examples
 --------

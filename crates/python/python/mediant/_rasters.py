@@ -60,7 +60,9 @@ def read_elevation(
     """Take elevations and frictions apart, with no number where a cell is blocked, and the size of a cell."""
     numbers, blocked, size = read("elevation", elevation, nodata, cell_size, transform)
     if size is None:
-        raise ArgumentError("cell_size: give the side of a cell in the unit of the elevations", _CODE)
+        raise ArgumentError(
+            "cell_size: give the side of a cell in the unit of the elevations, or transform=", _CODE
+        )
     heights, frictions = _floats(numbers), None
     if friction is not None:
         rough, holes, _ = read("friction", friction, None, size, None)
@@ -110,7 +112,7 @@ def _plane(name: str, raster: Any) -> tuple[NDArray[Any], NDArray[np.bool_]]:
     mask: Any = np.ma.getmask(raster) if isinstance(raster, np.ma.MaskedArray) else np.ma.nomask
     try:
         numbers = np.asarray(raster)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise ArgumentError(f"{name}: expected rows of the same length, found no array", _CODE) from error
     if numbers.ndim == 3 and numbers.shape[0] == 1:  # A raster of one band.
         numbers, mask = numbers[0], mask if mask is np.ma.nomask else mask[0]

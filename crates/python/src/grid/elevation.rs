@@ -35,9 +35,9 @@ impl Grid {
     ///     ``cell_size`` are read, too.
     /// pace : {"tobler", "langmuir"} or array_like
     ///     The time of a unit of horizontal length by the slope. The two with a name are seconds a meter:
-    ///     Tobler's hiking function, and the rule of Langmuir with the numbers of `r.walk`. Others are a table
-    ///     of shape (n, 2): slopes in increasing order, below 0 downhill, each with its time, linear between
-    ///     them.
+    ///     Tobler's hiking function, and the rule of Langmuir with the numbers of `r.walk`. Others are a
+    ///     table of shape (n, 2): slopes in increasing order, below 0 downhill, each with its time, linear
+    ///     between them.
     /// friction : array_like, optional
     ///     The time of a unit of length in each cell beyond that of the pace, from 0 on: an array or a raster
     ///     of the same shape.
@@ -53,8 +53,8 @@ impl Grid {
     /// Returns
     /// -------
     /// Grid
-    ///     With `elevation`. It has the queries, indexes, tables and fields of all grids, by A* and Dijkstra's
-    ///     algorithm, and no edits.
+    ///     With `elevation`. It has the queries, indexes, tables and fields of all grids, by A* and
+    ///     Dijkstra's algorithm, and no edits.
     ///
     /// Raises
     /// ------
@@ -160,7 +160,7 @@ impl Grid {
     }
 }
 
-/// What [`Grid::_of_walking`] takes.
+/// The arguments of [`Grid::_of_walking`].
 pub(super) fn state_of<'py>(
     py: Python<'py>,
     walking: &Walking,

@@ -110,7 +110,8 @@ impl Grid {
     /// sources : array_like of int
     ///     As in `field`.
     /// limit : float
-    ///     The greatest distance, in cells, or the greatest cost; a vertex at exactly that distance is reached.
+    ///     The greatest distance, in cells, or the greatest cost; a vertex at exactly that distance is
+    ///     reached.
     /// heading : {"from", "to"}
     ///     As in `field`.
     /// **motion
@@ -133,8 +134,8 @@ impl Grid {
     /// [[1, 1, 0, 0], [1, 1, 0, 0]]
     #[pyo3(
         signature = (sources, limit, *, heading = None, **motion),
-        text_signature = "($self, sources, limit, *, heading='from', k=None, neighbors=None, placement=None, \
-            corners=None, gap=None)"
+        text_signature = "($self, sources, limit, *, heading='from', k=None, neighbors=None, placement=None, corners=None, \
+            gap=None)"
     )]
     fn reach<'py>(
         &self,

@@ -39,6 +39,10 @@ links: NDArray[np.float64] = costly.field((0, 0)).directions("arcgis")
 robot: mediant.Grid = mediant.Grid.from_costmap(np.zeros((5, 9), "u1"), unknown=252, world=world)
 around_walls: mediant.Grid = grid.inflated(inflation_radius=3, inscribed_radius=0.5, weight=3)
 price: float = costly.find((0, 0), (4, 8)).cost
+land: mediant.Grid = mediant.Grid.from_elevation(np.ones((5, 9), "f4"), pace="langmuir", cell_size=30)
+land = mediant.Grid.from_elevation([[1, 2.5]], pace=[(-1, 2), (1, 3)], friction=[[0, 1]], cell_size=(3, 2))
+away: NDArray[np.int32] | None = land.field((0, 0), heading="from", limit=9).path_to((0, 1))
+pace: str | NDArray[np.float64] | None = land.pace
 for one in paths:
     if one is not None:
         rows: NDArray[np.int32] = one[:, 0]
@@ -53,6 +57,7 @@ grid.path((0, 0), (4, 8), k="all")  # type: ignore[arg-type]
 grid.path((0, 0))  # type: ignore[call-arg]
 grid.path((0, 0), (4, 8), corners="some")  # type: ignore[arg-type]
 grid.prepare("a-star")  # type: ignore[arg-type]
+grid.field((0, 0), heading="away")  # type: ignore[arg-type]
 index.path((0, 0), (4, 8), k=3)  # type: ignore[call-arg]
 index.search((0, 0), (4, 8), k=3)  # type: ignore[call-arg]
 mediant.World(1)  # type: ignore[call-arg]
