@@ -8,8 +8,11 @@ fn main() -> Result<(), Error> {
     // In meters: cells of 5 cm, and a robot of radius 5 cm. Costs reach 40 cm, and fall as in nav2.
     let radii = Inflation { resolution: 0.05, inscribed_radius: 0.05, inflation_radius: 0.4, ..falling() };
     let costs = map.inflated(&radii)?.costs(3.0)?;
-    let paths = [map.space(Motion::centers(4))?, costs.space(Motion::centers(4))?]
-        .map(|space| space.path((5, 5), (35, 5)).ok().flatten());
+    let (start, goal) = ((5, 5), (35, 5));
+    let space = map.space(Motion::centers(4))?;
+    let by_costs = costs.space(Motion::centers(4))?.path(start, goal)?;
+    let widest = space.widest_path(start, goal, 0.5)?.map(|widest| widest.path);
+    let paths = [space.path(start, goal)?, widest, by_costs];
     draw(&map, &paths);
     Ok(())
 }
@@ -18,10 +21,10 @@ fn falling() -> Inflation {
     Inflation { cost_scaling_factor: 3.0, ..Inflation::default() }
 }
 
-/// Draws the shortest path as `s`, and that by costs as `c`.
-fn draw(map: &Map, paths: &[Option<Path>; 2]) {
+/// Draws the shortest path as `s`, the widest as `w`, and that by costs as `c`.
+fn draw(map: &Map, paths: &[Option<Path>; 3]) {
     let mut rows: Vec<Vec<char>> = map.to_string().lines().map(|row| row.chars().collect()).collect();
-    for (path, mark) in paths.iter().zip(['s', 'c']) {
+    for (path, mark) in paths.iter().zip(['s', 'w', 'c']) {
         for at in path.iter().flat_map(Path::vertices) {
             rows[at.y as usize][at.x as usize] = mark;
         }
