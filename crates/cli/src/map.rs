@@ -228,6 +228,12 @@ impl NamedMap {
         self.tiles.clone().unwrap_or_else(|| MapFile::from_grid(&self.ground))
     }
 
+    /// All cells, row by row.
+    pub(crate) fn cells_by_row(&self) -> impl Iterator<Item = (i32, i32)> + use<> {
+        let (width, height) = (self.grid.width() as i32, self.grid.height() as i32);
+        (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+    }
+
     /// The vertex at a place of the command line.
     pub(crate) fn vertex(&self, placement: PlacementKind, place: Place) -> Result<Vertex, Failure> {
         match (self.frame, place) {

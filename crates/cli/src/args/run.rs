@@ -74,7 +74,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
     /// Draw the map and the path of a single query: on the screen, or to a .png or .svg file, there also what
-    /// was searched
+    /// was searched. Where cells have costs or elevations these are drawn instead
     #[arg(long, value_name = "FILE", num_args = 0..=1)]
     pub(crate) draw: Option<Option<PathBuf>>,
     /// Write the events of a single query's search to this file, for the Posthoc visualizer

@@ -152,8 +152,7 @@ fn numbers(args: &ConvertArgs) -> Result<Surface, Failure> {
     let map = NamedMap::load_ground(&args.map, *band)?.with_costs(&args.map, &args.costs)?;
     let Some(costs) = &map.costs else { return Err(Failure::NoNumbers { map: map.name }) };
     let (width, height) = (map.grid.width(), map.grid.height());
-    let cells = (0..height as i32).flat_map(|y| (0..width as i32).map(move |x| (x, y)));
-    let numbers: Vec<f64> = cells.map(|at| costs.cost(at).unwrap_or(NO_DATA)).collect();
+    let numbers: Vec<f64> = map.cells_by_row().map(|at| costs.cost(at).unwrap_or(NO_DATA)).collect();
     let surface = Surface::new(width, height, numbers).map_err(Failure::Surface)?;
     Ok(surface.with_no_data(Some(NO_DATA)).with_georeference(map.georeference.unwrap_or_default()))
 }

@@ -3,7 +3,7 @@
 use anstyle::RgbColor;
 use mediant_formats::MapFile;
 
-use super::theme::Theme;
+use super::theme::{Theme, of_share};
 
 /// A pixel of ground: two by two dots.
 #[derive(Clone, Copy)]
@@ -59,6 +59,28 @@ pub(super) fn paint(
         Ground { free, color: theme.color(tile, free, depth) }
     });
     ground.collect()
+}
+
+/// Colors the free pixels by the mean share of their free cells.
+pub(super) fn shade(
+    ground: &mut [Ground],
+    columns: usize,
+    pixel_in_cells: f64,
+    share: impl Fn(i32, i32) -> Option<f64>,
+) {
+    let span = |i: usize| {
+        let first = (i as f64 * pixel_in_cells) as i32;
+        first..(((i + 1) as f64 * pixel_in_cells).ceil() as i32).max(first + 1)
+    };
+    for (number, pixel) in ground.iter_mut().enumerate().filter(|(_, pixel)| pixel.free) {
+        let (row, column) = (number / columns, number % columns);
+        let shares = span(row).flat_map(|y| span(column).map(move |x| (x, y)));
+        let shares = shares.filter_map(|(x, y)| share(x, y));
+        let (sum, count) = shares.fold((0.0, 0.0), |(sum, count), share| (sum + share, count + 1.0));
+        if count > 0.0 {
+            pixel.color = of_share(sum / count);
+        }
+    }
 }
 
 /// The distance of each pixel from the nearest pixel of the other kind, in thirds of a pixel: the chamfer

@@ -2,6 +2,7 @@
 
 pub(crate) mod braille;
 mod ground;
+mod land;
 pub(crate) mod picture;
 pub(crate) mod query;
 pub(crate) mod star;

@@ -11,7 +11,7 @@ use mediant_formats::MapFile;
 
 use super::{
     braille::{DOT_COLUMNS, DOT_ROWS, Glyph, Sheet, Stroke, steps},
-    ground::{Ground, paint, pixels},
+    ground::{Ground, paint, pixels, shade},
     theme::{INKS, Theme},
 };
 use crate::terminal::screen::Screen;
@@ -57,6 +57,12 @@ impl Canvas {
         let tiles = pixels(map, columns, 2 * rows, pixel_in_cells);
         let ground = paint(map, &tiles, columns, pixel_in_cells, theme);
         Self { placement, dots_per_cell, ground, sheet: Sheet::new(columns, rows) }
+    }
+
+    /// Colors free ground by a share of each free cell, from 0 to 1.
+    pub(crate) fn shade(&mut self, share: impl Fn(i32, i32) -> Option<f64>) {
+        let pixel_in_cells = PIXEL_DOTS as f64 / self.dots_per_cell;
+        shade(&mut self.ground, self.sheet.columns(), pixel_in_cells, share);
     }
 
     /// Draws a line through the waypoints.

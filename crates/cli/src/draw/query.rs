@@ -11,7 +11,7 @@ use mediant::{
 };
 use mediant_formats::{Picture, PictureError};
 
-use super::{braille::Stroke, picture::Canvas, theme::INKS};
+use super::{braille::Stroke, land::Land, picture::Canvas, theme::INKS};
 use crate::{failure::Failure, map::NamedMap, terminal::screen::Screen, write::extension};
 
 /// The picture of a single query.
@@ -34,24 +34,34 @@ impl Drawing<'_> {
     pub(crate) fn on_screen(&self, waypoints: &[Vertex], screen: &mut Screen) -> io::Result<()> {
         let placement = self.setup.rules().placement();
         let mut canvas = Canvas::fit(&self.map.tiles(), self.map.theme, placement, screen);
+        if let Some(land) = Land::of(self.map) {
+            canvas.shade(|x, y| land.share(x, y));
+        }
         canvas.path(waypoints, Stroke::Solid, INKS.best);
         canvas.ends(self.query.starts(), self.query.goals());
         writeln!(screen)?;
         canvas.write(screen)
     }
 
-    /// Draws the map, the vertices that the search expands, and the path to a file.
+    /// Draws the map, the vertices that the search expands, and the path to a file. Where cells have costs or
+    /// elevations it has these, which would not be seen below what was searched.
     pub(crate) fn to_file(
         &self,
         path: &Path,
         planner: &mut Planner,
         waypoints: &[Vertex],
     ) -> Result<(), Failure> {
-        let mut searched = Searched::default();
-        // An error of the query was printed already.
-        let _ = planner.find_observed(self.query.clone(), &mut searched);
         let placement = self.setup.rules().placement();
-        let mut picture = Picture::new(&self.map.ground, placement).expanded(searched.expanded);
+        let mut picture = Picture::new(&self.map.ground, placement);
+        picture = match Land::of(self.map) {
+            Some(land) => picture.field(|at| land.at(placement, at)).caption(land.caption),
+            None => {
+                let mut searched = Searched::default();
+                // An error of the query was printed already.
+                let _ = planner.find_observed(self.query.clone(), &mut searched);
+                picture.expanded(searched.expanded)
+            }
+        };
         // Where a path was found, its own ends count: those that were asked for may have been moved.
         picture = match (waypoints.first(), waypoints.last()) {
             (Some(&start), Some(&goal)) => picture.start(start).goal(goal),

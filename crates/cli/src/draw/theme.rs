@@ -77,6 +77,16 @@ impl Theme {
     }
 }
 
+/// The ends of the scale of costs and elevations, on which bright lines are seen.
+const SCALE: [Rgb; 2] = [Rgb(0x16, 0x26, 0x2e), Rgb(0x9a, 0x62, 0x2c)];
+
+/// The color of a share from 0 to 1.
+pub(super) fn of_share(share: f64) -> Rgb {
+    let [Rgb(r, g, b), end] = SCALE;
+    let mix = |from: u8, to: u8| (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as u8;
+    Rgb(mix(r, end.0), mix(g, end.1), mix(b, end.2))
+}
+
 /// The colors of what is drawn on the map: bright, and unlike each other and the colors of every theme.
 pub(crate) struct Inks {
     /// The path of a run, and of k = ∞ in the demo.

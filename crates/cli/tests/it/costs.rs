@@ -4,7 +4,7 @@ use mediant_formats::{Georeference, Surface, SurfaceOptions, read_surface};
 use serde_json::Value;
 
 use crate::{
-    common::{Files, run, succeeds},
+    common::{Files, mediant_with, run, succeeds},
     errors::check,
 };
 
@@ -219,4 +219,38 @@ fn what_does_not_go_with_costs_is_said() {
     );
     let missing = run(&format!("reach {map} --from 0,0 --costs no.tif"));
     assert!(missing.status == Some(2) && missing.stderr.contains("no.tif"), "{}", missing.stderr);
+}
+
+#[test]
+fn pictures_show_the_land() {
+    let (files, arguments) = files();
+    let picture = |line: &str, name: &str| {
+        let path = files.path(name);
+        succeeds(&format!("run {line} --from 0,0 --to 4,0 --draw {path}"));
+        std::fs::read(path).expect("a picture")
+    };
+    let svg = |line: &str| String::from_utf8(picture(line, "path.svg")).expect("text");
+    let plain = arguments.split(' ').next().expect("a map");
+    assert!(svg(plain).contains("expanded: ") && !svg(plain).contains("colors: "));
+    let land = svg(&arguments);
+    assert!(!land.contains("expanded: "), "{land}");
+    for part in ["1 to 4", "colors: what a unit of length costs"] {
+        assert!(land.contains(part), "{part}: {land}");
+    }
+    assert!(svg(&format!("{} --elevation", files.path("costs.asc"))).contains("colors: elevation"));
+    // At corners a vertex has the mean of the free cells around it: 4, 4 and 9.
+    let swamp = files.add("swamp.asc", COSTS.replace("1 4 9 4 1", "1 9 9 4 1"));
+    let at_corners = svg(&format!("{plain} --costs {swamp} --placement corner"));
+    assert!(at_corners.contains(">1 to 5.67<"), "{at_corners}");
+    assert_ne!(picture(plain, "path.png"), picture(&arguments, "path.png"));
+    // On the screen dear cells are lighter.
+    let screen = |line: &str| {
+        let line = format!("run {line} --from 0,0 --to 4,0 --k 2 --engine astar --draw");
+        let words: Vec<&str> = line.split(' ').collect();
+        mediant_with(&words, &[("CLICOLOR_FORCE", "1"), ("COLORTERM", "truecolor")]).stdout
+    };
+    let [cheap, dear] = ["48;2;22;38;46m", "48;2;154;98;44m"];
+    let drawn = screen(&arguments);
+    assert!(drawn.contains(cheap) && drawn.contains(dear), "{drawn}");
+    assert!(!screen(plain).contains(cheap) && !screen(plain).contains(dear));
 }
