@@ -155,10 +155,7 @@ pub enum SurfaceError {
         remedy: &'static str,
     },
     /// A raster of several bands, of which none was chosen, or one that it does not have.
-    #[error(
-        "expected one band, found {bands}; choose one of 1 to {bands} by `band`{}",
-        found.map(|band| format!(" (not {band})")).unwrap_or_default()
-    )]
+    #[error("expected {}", of_bands(*bands, *found))]
     Band {
         /// The number of bands.
         bands: u16,
@@ -191,6 +188,17 @@ pub enum SurfaceError {
     /// An interrupt stopped the reading.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
+}
+
+/// The expected band, in words, and the cure.
+fn of_bands(bands: u16, found: Option<u16>) -> String {
+    match found {
+        Some(band) if bands == 1 => format!("band 1, which is the only one, found {band}; leave `band` out"),
+        _ => format!(
+            "one band, found {bands}; choose one of 1 to {bands} by `band`{}",
+            found.map(|band| format!(" (not {band})")).unwrap_or_default()
+        ),
+    }
 }
 
 impl From<TryReserveError> for SurfaceError {

@@ -1,6 +1,6 @@
 //! Reads and writes arrays of NumPy, by its NEP 1.
 
-use std::io::{self, Write};
+use std::io::{self, SeekFrom, Write};
 
 use super::{READING, Surface, SurfaceError, npy_header::Header, source::Source};
 
@@ -18,7 +18,9 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Surface, SurfaceError> {
     let Header { number, big_endian, by_columns, .. } = header;
     let mut samples = number.none();
     let (width, height) = source.check(header.width, header.height, &samples)?;
-    let expected = header.width * header.height * number.bytes() as u64;
+    let band = source.band(header.bands)?;
+    let bytes = header.width * header.height * number.bytes() as u64;
+    let expected = bytes.saturating_mul(header.bands.into());
     let found = source.length - source.reader.stream_position()?;
     if found < expected {
         return Err(SurfaceError::Short { unit: "bytes of numbers", expected, found });
@@ -30,9 +32,11 @@ pub(super) fn read(source: &mut Source<'_>) -> Result<Surface, SurfaceError> {
     // The file has them all.
     let cells = usize::try_from(header.width * header.height).map_err(|_| SurfaceError::Memory)?;
     super::samples::each!(&mut samples, all => all.try_reserve_exact(cells)?);
+    // The file is as long, so that this is no more than its length.
+    source.reader.seek(SeekFrom::Current((bytes * u64::from(band)) as i64))?;
     // Of columns it is the height that the place of a number goes by.
     let side = if by_columns { height } else { width };
-    source.each_piece(expected, |bytes| number.extend(&mut samples, bytes, big_endian, side))?;
+    source.each_piece(bytes, |bytes| number.extend(&mut samples, bytes, big_endian, side))?;
     if by_columns {
         samples = samples.transposed((width as usize, height as usize), source.interrupt)?;
     }

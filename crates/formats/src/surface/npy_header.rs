@@ -7,6 +7,8 @@ use crate::text::quote;
 pub(super) struct Header {
     pub(super) width: u64,
     pub(super) height: u64,
+    /// Of an array of three dimensions, one after the other.
+    pub(super) bands: u16,
     pub(super) number: Number,
     pub(super) big_endian: bool,
     /// Whether the numbers are column by column, 'in Fortran order'.
@@ -15,6 +17,9 @@ pub(super) struct Header {
 
 const SAVE: &str = "save the array anew by `numpy.save`";
 const TYPE: &str = "convert it, for example by `array.astype('float32')`";
+const EXPECTED: &str =
+    "a shape of two dimensions, rows and columns, or of three, with 1 to 65535 bands first";
+const ORDER: &str = "save it anew by `numpy.save(file, numpy.ascontiguousarray(array))`";
 const SHAPE: &str = "save one layer of the array, with its rows and columns";
 
 fn error(expected: &'static str, found: &[u8], remedy: &'static str) -> SurfaceError {
@@ -63,8 +68,12 @@ impl Header {
         literal.space();
         let rest = literal.text;
         match (kind, order, shape) {
-            (Some((number, big_endian)), Some(by_columns), Some((height, width))) if rest.is_empty() => {
-                Ok(Self { width, height, number, big_endian, by_columns })
+            // In Fortran order the bands would be mixed, cell by cell.
+            (Some(_), Some(true), Some((2.., ..))) => Err(error(EXPECTED, b"bands in Fortran order", ORDER)),
+            (Some((number, big_endian)), Some(by_columns), Some((bands, height, width)))
+                if rest.is_empty() =>
+            {
+                Ok(Self { width, height, bands, number, big_endian, by_columns })
             }
             _ if rest.is_empty() => {
                 Err(error("the keys `descr`, `fortran_order` and `shape`", b"fewer keys", SAVE))
@@ -149,9 +158,8 @@ impl<'a> Literal<'a> {
         Err(error("`True` or `False`", self.text, SAVE))
     }
 
-    /// Rows and columns.
-    fn shape(&mut self) -> Result<(u64, u64), SurfaceError> {
-        const EXPECTED: &str = "a shape of two dimensions, rows and columns";
+    /// Bands, of two dimensions one, rows and columns.
+    fn shape(&mut self) -> Result<(u16, u64, u64), SurfaceError> {
         self.space();
         let all = self.text;
         let mut sides = Vec::new();
@@ -170,7 +178,8 @@ impl<'a> Literal<'a> {
         }
         let shape = &all[..all.len() - self.text.len()];
         match sides[..] {
-            [height, width] => Ok((height, width)),
+            [height, width] => Ok((1, height, width)),
+            [bands @ 1..=0xffff, height, width] => Ok((bands as u16, height, width)),
             _ => Err(error(EXPECTED, shape, SHAPE)),
         }
     }

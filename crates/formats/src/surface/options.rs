@@ -15,8 +15,8 @@ use crate::{raster::PNG_SIGNATURE, text::Lines, text::words};
 /// Needs the feature `surface`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SurfaceOptions {
-    /// The band of a GeoTIFF to read, from 1; `None` where it must have one only. Other kinds of files have
-    /// one band.
+    /// The band to read, from 1, of a GeoTIFF, or of an NPY of three dimensions: bands, rows and columns.
+    /// `None` where there must be one only. Other kinds of files have one band.
     pub band: Option<u16>,
     /// The most bytes that the numbers of a raster may take, 2³³ by default: enough for the largest raster of
     /// 16 bits. A file that needs more is refused before anything is allocated. A reader that unpacks a PNG

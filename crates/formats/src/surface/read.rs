@@ -81,8 +81,8 @@ impl Surface {
         let mut source = Source::new(&mut reader, options, interrupt)?;
         match format_of(&mut source)? {
             SurfaceFormat::Npy => npy::read(&mut source),
-            SurfaceFormat::EsriAscii => esri::read(&mut source),
-            SurfaceFormat::Pgm | SurfaceFormat::Png => gray::read(&mut source),
+            SurfaceFormat::EsriAscii => source.band(1).and_then(|_| esri::read(&mut source)),
+            SurfaceFormat::Pgm | SurfaceFormat::Png => source.band(1).and_then(|_| gray::read(&mut source)),
             #[cfg(feature = "geotiff")]
             SurfaceFormat::GeoTiff => super::geotiff::read(&mut source),
             #[cfg(not(feature = "geotiff"))]

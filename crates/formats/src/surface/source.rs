@@ -48,6 +48,15 @@ impl<'a> Source<'a> {
         Ok(sides)
     }
 
+    /// The band that is read, from 0, of so many.
+    pub(super) fn band(&self, bands: u16) -> Result<u16, SurfaceError> {
+        match self.options.band {
+            None if bands == 1 => Ok(0),
+            Some(band) if (1..=bands).contains(&band) => Ok(band - 1),
+            found => Err(SurfaceError::Band { bands, found }),
+        }
+    }
+
     /// At most this many bytes from here on.
     pub(super) fn read(&mut self, most: u64) -> Result<Vec<u8>, SurfaceError> {
         let mut bytes = Vec::new();

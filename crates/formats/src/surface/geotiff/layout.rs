@@ -75,12 +75,7 @@ impl Layout {
         };
         let all_bands = u16::try_from(first(BANDS, 1, source)?).ok().filter(|&bands| bands > 0);
         let all_bands = all_bands.ok_or_else(|| error("1 to 65535 bands", "another number"))?;
-        let found = source.options.band;
-        let band = match found {
-            None if all_bands == 1 => 0,
-            Some(band) if (1..=all_bands).contains(&band) => band - 1,
-            _ => return Err(SurfaceError::Band { bands: all_bands, found }),
-        };
+        let band = source.band(all_bands)?;
         let bits = same(BITS, 1, directory, source)?;
         let number = number(bits, same(SAMPLE_FORMAT, 1, directory, source)?)?;
         source.check(width.into(), height.into(), &number.none())?;

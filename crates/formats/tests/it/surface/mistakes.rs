@@ -61,6 +61,7 @@ fn arrays() {
         "expected the end of the file after 2 bytes of numbers, found 1 more; remove what follows, or mend the \
          sides in the header"
     );
+    let shape = "a shape of two dimensions, rows and columns, or of three, with 1 to 65535 bands first";
     for (header, expected, found, remedy) in [
         ("", "a dictionary", "nothing", anew),
         (
@@ -77,15 +78,21 @@ fn arrays() {
         ),
         (
             "{'descr': '|u1', 'fortran_order': False, 'shape': (2,)}",
-            "a shape of two dimensions, rows and columns",
+            shape,
             "`(2,)`",
             "; save one layer of the array, with its rows and columns",
         ),
         (
-            "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 1, 2)}",
-            "a shape of two dimensions, rows and columns",
-            "`(3, 1, 2)`",
+            "{'descr': '|u1', 'fortran_order': False, 'shape': (0, 1, 2)}",
+            shape,
+            "`(0, 1, 2)`",
             "; save one layer of the array, with its rows and columns",
+        ),
+        (
+            "{'descr': '|u1', 'fortran_order': True, 'shape': (3, 1, 2)}",
+            shape,
+            "`bands in Fortran order`",
+            "; save it anew by `numpy.save(file, numpy.ascontiguousarray(array))`",
         ),
         (
             "{'descr': '|u1', 'fortran_order': 0, 'shape': (1, 2)}",
@@ -227,7 +234,41 @@ fn bands() {
     let all: Vec<_> = [1, 2, 3].map(|band| of(band).unwrap().into_samples()).to_vec();
     assert!(all[0] != all[1] && all[1] != all[2]);
     let one = SurfaceOptions { band: Some(1), ..SurfaceOptions::default() };
-    assert!(Surface::parse(&fixture("gdal-u2.tif"), &one).is_ok());
+    for name in ["gdal-u2.tif", "numpy-le-f4.npy", "gdal-i4.asc", "pillow-16.pgm", "pillow-8.png"] {
+        let bytes = fixture(name);
+        assert!(Surface::parse(&bytes, &one).is_ok(), "{name}");
+        let second = SurfaceOptions { band: Some(2), ..SurfaceOptions::default() };
+        assert_eq!(
+            Surface::parse(&bytes, &second).unwrap_err().to_string(),
+            "expected band 1, which is the only one, found 2; leave `band` out",
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn bands_of_arrays() {
+    let array = |bands: u16, numbers: &[u8]| {
+        let text = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': ({bands}, 2, 3)}}");
+        [b"\x93NUMPY\x01\0", &(text.len() as u16).to_le_bytes()[..], text.as_bytes(), numbers].concat()
+    };
+    let of =
+        |bytes: &[u8], band| Surface::parse(bytes, &SurfaceOptions { band, ..SurfaceOptions::default() });
+    let numbers: Vec<u8> = (0..24).collect();
+    let four = array(4, &numbers);
+    assert_eq!(Surface::size(&four).unwrap(), (3, 2));
+    for (band, all) in (1..).zip(numbers.chunks(6)) {
+        let read: Vec<_> = of(&four, Some(band)).unwrap().iter().flatten().collect();
+        assert_eq!(read, all.iter().copied().map(f64::from).collect::<Vec<_>>(), "band {band}");
+    }
+    for band in [None, Some(0), Some(5)] {
+        assert!(matches!(of(&four, band), Err(SurfaceError::Band { bands: 4, found }) if found == band));
+    }
+    assert_eq!(of(&array(1, &numbers[..6]), None).unwrap().get(2, 1), Some(5.0));
+    for numbers in [&numbers[..23], &[&numbers[..], &[1]].concat()] {
+        let error = of(&array(4, numbers), Some(1)).unwrap_err().to_string();
+        assert!(error.contains("24 bytes of numbers"), "{error}");
+    }
 }
 
 /// The tag of a TIFF of GDAL with the number of its compression, and that of its samples' format.
