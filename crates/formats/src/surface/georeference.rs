@@ -5,8 +5,9 @@ use super::SurfaceError;
 /// Where a raster is in the world: what its file says of it, kept for the file that is written.
 ///
 /// Of a GeoTIFF these are its GeoKeys, its tie points, scale and transformation, and GDAL's metadata, byte by
-/// byte; of an ESRI ASCII grid its lower left cell and the size of a cell. Each is written in the form of the
-/// other, too, but an ESRI ASCII grid says nothing of the coordinate system.
+/// byte; of an ESRI ASCII grid its lower left cell and the size of a cell, and of the `.prj` beside it whether
+/// the coordinates are degrees. Each is written in the form of the other, too, but an ESRI ASCII grid says
+/// nothing of the coordinate system.
 ///
 /// ```
 /// use mediant_formats::{Surface, SurfaceOptions};
@@ -25,6 +26,8 @@ pub struct Georeference {
     pub(super) origin: Option<Origin>,
     /// The tags of a GeoTIFF. They are what is written in one; size and origin follow from them.
     pub(super) tags: Vec<GeoTag>,
+    /// Whether the file beside an ESRI ASCII grid says that the coordinates are longitudes and latitudes.
+    pub(super) is_geographic: bool,
 }
 
 /// The place of the lower left cell.
@@ -45,6 +48,10 @@ pub(super) struct GeoTag {
     /// Each number with its lowest byte first.
     pub(super) bytes: Vec<u8>,
 }
+
+/// The key of the kind of coordinates, and its value for longitudes and latitudes.
+pub(super) const MODEL_TYPE: u16 = 1024;
+pub(super) const GEOGRAPHIC: u16 = 2;
 
 /// The directory of the GeoKeys.
 pub(super) const GEO_KEYS: u16 = 34735;
@@ -88,15 +95,14 @@ impl Georeference {
     }
 
     /// Whether the coordinates are longitudes and latitudes: the GeoKey `GTModelTypeGeoKey` is 2,
-    /// 'geographic'. Then a cell is narrower the nearer it is to a pole, and lengths in the unit of its size
+    /// 'geographic', or the `.prj` beside an ESRI ASCII grid has such a system (`GEOGCS`). Then a cell is narrower the nearer it is to a pole, and lengths in the unit of its size
     /// are no lengths on the ground. Project the raster first (`gdalwarp -t_srs …`), or weigh each row by
     /// [`Surface::cell_meters`](super::Surface::cell_meters).
     ///
-    /// Files other than GeoTIFFs do not say it.
+    /// Other files do not say it, nor does an ESRI ASCII grid that is no file.
     #[must_use]
     pub fn is_in_degrees(&self) -> bool {
-        const MODEL_TYPE: u16 = 1024;
-        self.geo_key(MODEL_TYPE) == Some(2)
+        self.is_geographic || self.geo_key(MODEL_TYPE) == Some(GEOGRAPHIC)
     }
 
     /// The short value of a GeoKey.

@@ -11,6 +11,7 @@ mod npy;
 mod npy_header;
 mod number;
 mod options;
+mod prj;
 mod read;
 mod samples;
 #[cfg(feature = "save")]

@@ -7,13 +7,14 @@ use std::{
 
 use mediant_grid::Interrupt;
 
-use super::{Surface, SurfaceError, SurfaceFormat, SurfaceOptions, esri, gray, npy, source::Source};
+use super::{Surface, SurfaceError, SurfaceFormat, SurfaceOptions, esri, gray, npy, prj, source::Source};
 use crate::{
     foreign::kind_or_quote,
     read::{ReadError, open_regular},
 };
 
-/// Reads a raster from a file of any [kind](SurfaceFormat), told by its content.
+/// Reads a raster from a file of any [kind](SurfaceFormat), told by its content. A file of the same name that
+/// ends in `.prj`, beside an ESRI ASCII grid, says whether the coordinates are degrees.
 ///
 /// ```no_run
 /// use mediant_formats::{SurfaceOptions, read_surface};
@@ -41,8 +42,12 @@ pub fn read_surface_interruptible(
 ) -> Result<Surface, ReadError> {
     let path = path.as_ref();
     let (file, _) = open_regular(path)?;
-    Surface::read_from(BufReader::new(file), options, interrupt)
-        .map_err(|error| ReadError::of_surface(path, error))
+    let surface = Surface::read_from(BufReader::new(file), options, interrupt);
+    let mut surface = surface.map_err(|error| ReadError::of_surface(path, error))?;
+    // Of all formats without tags, ESRI ASCII grids alone have the size of a cell.
+    let place = &mut surface.georeference;
+    place.is_geographic = place.tags.is_empty() && place.cell_size.is_some() && prj::is_geographic(path);
+    Ok(surface)
 }
 
 /// The width and the height that the header of a file states, before the raster is read.

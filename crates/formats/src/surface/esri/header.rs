@@ -108,6 +108,6 @@ impl Header {
     }
 
     pub(super) fn georeference(&self) -> Georeference {
-        Georeference { cell_size: self.cell_size, origin: self.origin, tags: Vec::new() }
+        Georeference { cell_size: self.cell_size, origin: self.origin, ..Georeference::default() }
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     super::{
         SurfaceError,
-        georeference::{GEO_KEYS, GeoTag, Georeference, Origin},
+        georeference::{GEO_KEYS, GEOGRAPHIC, GeoTag, Georeference, MODEL_TYPE, Origin},
         source::Source,
     },
     Directory,
@@ -117,8 +117,11 @@ pub(super) fn tags_of(georeference: &Georeference, height: u32, no_data_now: Opt
         tags.push(of_doubles(SCALE, &[x, y, 0.0]));
         tags.push(of_doubles(TIE_POINTS, &[0.0, 0.0, 0.0, origin.x, origin.y + above, 0.0]));
         let is = if origin.is_center { POINT } else { AREA };
-        let keys = [1, 1, 0, 1, RASTER_TYPE, 0, 1, is];
-        let bytes = keys.iter().flat_map(|key: &u16| key.to_le_bytes()).collect();
+        let geographic = [MODEL_TYPE, 0, 1, GEOGRAPHIC];
+        let of_model = if georeference.is_geographic { &geographic[..] } else { &[] };
+        let count = if georeference.is_geographic { 2 } else { 1 };
+        let keys = [&[1, 1, 0, count], of_model, &[RASTER_TYPE, 0, 1, is]].concat();
+        let bytes = keys.into_iter().flat_map(u16::to_le_bytes).collect();
         tags.push(GeoTag { tag: GEO_KEYS, kind: SHORT, bytes });
     }
     let before = no_data(georeference).filter(|number| !number.is_nan());

@@ -57,3 +57,27 @@ fn no_data_in_the_type_of_the_samples() {
     assert_eq!((surface.no_data(), surface.iter().flatten().count()), (None, 2));
     assert_eq!((surface.get(3, 0), surface.get(0, 1)), (None, None));
 }
+
+#[test]
+fn a_file_beside_a_grid_says_that_it_is_in_degrees() {
+    let folder = tempfile::tempdir().unwrap();
+    let read = |name: &str| read_surface(folder.path().join(name), &SurfaceOptions::default()).unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("dem.asc", "ncols 2\nnrows 1\nxllcorner 9\nyllcorner 60\ncellsize 0.5\n1 2\n");
+    assert!(!read("dem.asc").is_in_degrees());
+    for (text, expected) in [("PROJCS[\"UTM\",GEOGCS[]]", false), ("GEOGCS[\"WGS 84\"]", true)] {
+        write("dem.prj", text);
+        assert_eq!(read("dem.asc").is_in_degrees(), expected, "{text}");
+    }
+    let surface = read("dem.asc");
+    let (width, height) = surface.cell_meters(0).unwrap();
+    assert!((width - 27_664.0).abs() < 250.0 && (height - 55_720.0).abs() < 50.0, "{width} × {height}");
+    // It stays so in a GeoTIFF, beside which the file has nothing to say.
+    surface.save(folder.path().join("dem.tif")).unwrap();
+    assert!(read("dem.tif").is_in_degrees());
+    let meters = Georeference::from_cell_size(30.0, 30.0).unwrap();
+    let plain = Surface::new(1, 1, vec![1_u8]).unwrap();
+    plain.clone().with_georeference(meters).save(folder.path().join("dem.tif")).unwrap();
+    plain.save(folder.path().join("dem.npy")).unwrap();
+    assert!(!read("dem.tif").is_in_degrees() && !read("dem.npy").is_in_degrees());
+}
