@@ -155,7 +155,7 @@ pub enum SetupError {
     },
     /// A k over which no engine searches on costs of cells.
     #[error(
-        "on costs of cells no engine searches k = {k}: choose a k from 2 to {max} (4 to {} neighbors)",
+        "on costs of cells no engine searches k = {k}: choose a k from 2 to {max} (4 to {} neighbors), by {engines}",
         2_u64.saturating_pow(*max)
     )]
     CostsK {
@@ -163,6 +163,8 @@ pub enum SetupError {
         k: K,
         /// The largest k.
         max: u32,
+        /// The engines that search on such costs.
+        engines: String,
     },
     /// Something that there is not on costs of cells.
     #[error("on costs of cells there is no {what}: {instead}")]
@@ -202,6 +204,9 @@ pub enum SetupError {
 }
 
 impl SetupError {
+    /// The engines that search over elevation.
+    pub(crate) const OVER_ELEVATION: [Engine; 2] = [Engine::AStar, Engine::Dijkstra];
+
     pub(crate) const TAUT_ON_COSTS: Self =
         Self::WithCosts { what: "taut smoothing", instead: "smooth linearly, which never costs more" };
     #[cfg(feature = "costs")]
@@ -225,6 +230,16 @@ impl SetupError {
     /// The error for an engine that knows no costs.
     pub(crate) fn on_costs(engine: Engine) -> Self {
         Self::Costs { engine, others: Engine::names_where(|kind| kind.capabilities().costs) }
+    }
+
+    #[cfg(feature = "costs")]
+    /// The error for a k over which no engine searches on costs, or over elevation.
+    pub(crate) fn k_on_costs(k: K, max: u32, is_walking: bool) -> Self {
+        let is_known = |kind: Engine| match is_walking {
+            true => Self::OVER_ELEVATION.contains(&kind),
+            false => kind.capabilities().costs,
+        };
+        Self::CostsK { k, max, engines: Engine::names_where(is_known) }
     }
 
     /// The error for an engine whose index is not saved.

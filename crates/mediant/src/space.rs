@@ -163,7 +163,7 @@ impl Space {
         const MAX: u32 = CostGraph::MAX_K;
         motion.check_k()?;
         let k = motion.k.finite().filter(|k| k.get() <= MAX);
-        let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
+        let k = k.ok_or_else(|| SetupError::k_on_costs(motion.k, MAX, false))?;
         let graph = Arc::new(CostGraph::new(Arc::clone(costs.surface()), motion.rules, k)?);
         let surface = Surface { costs: costs.alone(), graph };
         Self::searched(costs.map(), (Some(surface), None), motion, interrupt)

@@ -195,8 +195,12 @@ impl Space {
 
     /// Checks that a setup is one for this space.
     pub(crate) fn check_setup(&self, setup: &Setup) -> Result<(), SetupError> {
+        let engine = setup.engine.kind();
+        if self.walk().is_some() && !SetupError::OVER_ELEVATION.contains(&engine) {
+            let others = SetupError::OVER_ELEVATION.map(Engine::name).join(", ");
+            return Err(SetupError::Costs { engine, others });
+        }
         if self.has_costs() {
-            let engine = setup.engine.kind();
             if !engine.capabilities().costs {
                 return Err(SetupError::on_costs(engine));
             }
@@ -204,15 +208,8 @@ impl Space {
                 return Err(SetupError::TAUT_ON_COSTS);
             }
         }
-        if self.walk().is_some() {
-            let known = [Engine::AStar, Engine::Dijkstra];
-            if !known.contains(&setup.engine.kind()) {
-                let others = known.map(Engine::name).join(", ");
-                return Err(SetupError::Costs { engine: setup.engine.kind(), others });
-            }
-            if setup.smoothing.is_some() {
-                return Err(SetupError::SMOOTHING_OVER_ELEVATION);
-            }
+        if self.walk().is_some() && setup.smoothing.is_some() {
+            return Err(SetupError::SMOOTHING_OVER_ELEVATION);
         }
         setup.check()?;
         self.check_sides(setup)

@@ -49,7 +49,7 @@ mod given {
             const MAX: u32 = WalkingGraph::MAX_K;
             motion.check_k()?;
             let k = motion.k.finite().filter(|k| k.get() <= MAX);
-            let k = k.ok_or(SetupError::CostsK { k: motion.k, max: MAX })?;
+            let k = k.ok_or_else(|| SetupError::k_on_costs(motion.k, MAX, true))?;
             let graph = Arc::new(WalkingGraph::new(Arc::clone(of.ground()), motion.rules, k)?);
             Self::searched(of.map(), (None, Some(Walk { walking: of.alone(), graph })), motion, interrupt)
         }

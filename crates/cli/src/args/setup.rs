@@ -2,9 +2,13 @@
 
 use std::path::Path;
 
-use mediant::{Choice, Demand, Index, Motion, Space, call::Call};
+use mediant::{Choice, Demand, Index, K, Motion, Space, call::Call};
 
-use crate::failure::Failure;
+use super::{
+    costs::{CostsArgs, WalkingArgs},
+    map::MapArgs,
+};
+use crate::{failure::Failure, map::NamedMap};
 
 /// The engine, its options and the motion of a command's arguments.
 #[derive(Clone, Debug)]
@@ -14,6 +18,26 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
+    /// [`of`](Self::of), which may be on costs: there the k has another cure than the engine knows.
+    pub(crate) fn of_numbers(
+        call: &Call,
+        needs_index: bool,
+        map: &MapArgs,
+        costs: &CostsArgs,
+        walking: &WalkingArgs,
+    ) -> Result<Self, Failure> {
+        Self::of(call, needs_index).or_else(|error| {
+            if call.k()? == Some(K::Any)
+                && let Ok(loaded) = NamedMap::load_ground(map, costs.reading)
+                && let Ok(loaded) = loaded.with_numbers(map, costs, walking)
+                && loaded.has_costs()
+            {
+                loaded.space(call.motion()?)?;
+            }
+            Err(error)
+        })
+    }
+
     /// The engine, options and motion of a call, checked as far as can be without a map; `needs_index` asks
     /// for an engine with a saved index.
     pub(crate) fn of(call: &Call, needs_index: bool) -> Result<Self, Failure> {

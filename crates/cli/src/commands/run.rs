@@ -27,7 +27,8 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let asked = Asked::of(&args.flags.0, args.index.is_some())?;
+    let asked =
+        Asked::of_numbers(&args.flags.0, args.index.is_some(), &args.map, &args.costs, &args.walking)?;
     let (rules, placement) = (asked.motion.rules, asked.motion.rules.placement());
     let reference = args.reference(rules)?;
     match &args.draw {

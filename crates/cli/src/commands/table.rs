@@ -31,8 +31,9 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let asked = Asked::of(&args.flags.0, args.index.is_some())?;
-    let map = NamedMap::load_ground(&args.map, args.costs.band)?.without_tiles();
+    let asked =
+        Asked::of_numbers(&args.flags.0, args.index.is_some(), &args.map, &args.costs, &args.walking)?;
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?.without_tiles();
     let map = map.for_agent(&args.map, asked.motion)?;
     let map = map.with_numbers(&args.map, &args.costs, &args.walking)?;
     let placement = asked.motion.rules.placement();

@@ -181,6 +181,20 @@ fn what_does_not_go_with_costs_is_said() {
         &format!("run {arguments} --from 0,0 --to 4,0 --engine jps"),
         "jps knows no costs of cells: on costs choose astar, dijkstra, theta, lazy-theta, landmarks",
     );
+    let cure =
+        "choose a k from 2 to 8 (4 to 256 neighbors), by astar, dijkstra, theta, lazy-theta, landmarks";
+    for (options, k) in
+        [("--k any", "any"), ("--engine anya", "any"), ("--k any --engine theta", "any"), ("--k 9", "9")]
+    {
+        check(
+            &format!("run {arguments} --from 0,0 --to 4,0 {options}"),
+            &format!("on costs of cells no engine searches k = {k}: {cure}"),
+        );
+    }
+    check(
+        &format!("run {} --elevation --from 0,0 --to 4,0 --k any", files.path("costs.asc")),
+        "on costs of cells no engine searches k = any: choose a k from 2 to 8 (4 to 256 neighbors), by astar, dijkstra",
+    );
     check(
         &format!("run {arguments} --from 0,0 --to 4,0 --radius 1"),
         "--radius does not go with costs: leave it out, or leave the costs out",
