@@ -59,6 +59,8 @@ pub(crate) enum Failure {
     NoTiles { map: String, option: &'static str },
     #[error(transparent)]
     Surface(SurfaceError),
+    #[error("{option} is for a raster of costs or elevations: leave it out, or give one")]
+    NoRaster { option: &'static str },
     #[error("back links of ArcGIS are for k = 2 and 3, not for k = {k}: choose --directions degrees")]
     BackLinks { k: mediant::K },
     #[error("{option} does not go with costs: leave it out, or leave the costs out")]

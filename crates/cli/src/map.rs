@@ -18,7 +18,7 @@ use mediant_formats::{DynamicScenario, Georeference, Ground, MapFile, ReadError,
 
 use self::numbers::{Raster, is_surface};
 use crate::{
-    args::{MapArgs, Place},
+    args::{MapArgs, Place, ReadingArgs},
     builtin::Builtin,
     check::file::{bytes, shown},
     draw::theme::Theme,
@@ -71,11 +71,12 @@ impl NamedMap {
 
     /// [`load`](Self::load), with the characters of a MovingAI map, to draw or to write them.
     pub(crate) fn load_with_tiles(args: &MapArgs) -> Result<Self, Failure> {
-        Self::load_ground(args, None)?.with_own_costs()
+        Self::load_ground(args, ReadingArgs::default())?.with_own_costs()
     }
 
-    /// The same before it is known what the numbers of a raster are, of which one band is read.
-    pub(crate) fn load_ground(args: &MapArgs, band: Option<u16>) -> Result<Self, Failure> {
+    /// The same before it is known what the numbers of a raster are, which is read as these
+    /// arguments say.
+    pub(crate) fn load_ground(args: &MapArgs, reading: ReadingArgs) -> Result<Self, Failure> {
         let options = args.options()?;
         if let Some(builtin) = Builtin::of_path(&args.map) {
             let map = Self::bundled(builtin?, options.tiles)?;
@@ -89,7 +90,7 @@ impl NamedMap {
             if let Some(option) = args.tiles_option() {
                 return Err(Failure::NoTiles { map: name, option });
             }
-            return Self::of_raster(name, &args.map, band);
+            return Self::of_raster(name, &args.map, reading);
         }
         let (grid, tiles, place, scenario) = match changing(&args.map)? {
             Some(scenario) => (scenario.grid(), None, None, Some(Arc::new(scenario))),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use mediant::{Langmuir, Pace};
 
-use super::value::parse_amount;
+use super::value::{parse_amount, parse_number};
 
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct CostsArgs {
@@ -14,12 +14,35 @@ pub(crate) struct CostsArgs {
     /// cost in each cell, with k = 2 to 8
     #[arg(long, value_name = "FILE", help_heading = "Agent and map")]
     pub(crate) costs: Option<PathBuf>,
-    /// The band of a GeoTIFF with several, from 1
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
+    pub(crate) inflation: InflationArgs,
+}
+
+/// How a raster of costs or elevations is read.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub(crate) struct ReadingArgs {
+    /// The band of a raster with several, from 1: a GeoTIFF, or an NPY of bands, rows and columns
     #[arg(long, value_name = "N", help_heading = "Agent and map", allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) band: Option<u16>,
-    #[command(flatten)]
-    pub(crate) inflation: InflationArgs,
+    /// In a raster of costs or elevations, cells of this number have no data and are blocked, whatever the
+    /// file says; NPY, PGM and PNG say nothing
+    #[arg(long, value_name = "VALUE", help_heading = "Agent and map", allow_negative_numbers = true)]
+    #[arg(value_parser = parse_number)]
+    pub(crate) no_data: Option<f64>,
+}
+
+impl ReadingArgs {
+    /// An option that was given.
+    pub(crate) const fn given(self) -> Option<&'static str> {
+        match self {
+            Self { band: Some(_), .. } => Some("--band"),
+            Self { no_data: Some(_), .. } => Some("--no-data"),
+            Self { band: None, no_data: None } => None,
+        }
+    }
 }
 
 /// Costs around obstacles, in the words of nav2.

@@ -23,7 +23,7 @@ pub(crate) use self::{
     build::BuildArgs,
     check::CheckArgs,
     convert::ConvertArgs,
-    costs::{CostsArgs, InflationArgs, WalkingArgs},
+    costs::{CostsArgs, InflationArgs, ReadingArgs, WalkingArgs},
     demo::DemoArgs,
     explain::explain,
     manual::{CompletionsArgs, ManArgs},

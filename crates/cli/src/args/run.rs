@@ -49,7 +49,7 @@ pub(crate) struct RunArgs {
     /// Answer each query of a MovingAI map on the ground of its start: land (.GS), water (W) or trees (T),
     /// between which no step leads
     #[arg(long, conflicts_with_all = ["free", "blocked", "index", "distances", "costs"])]
-    #[arg(conflicts_with_all = ["inflation_radius", "elevation"])]
+    #[arg(conflicts_with_all = ["inflation_radius", "elevation", "band", "no_data"])]
     pub(crate) grounds: bool,
     #[command(flatten)]
     pub(crate) query: QueryArgs,

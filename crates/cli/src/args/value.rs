@@ -110,6 +110,12 @@ pub(super) fn parse_pose(text: &str) -> Result<[f64; 3], String> {
     pose.ok_or_else(|| "expected three numbers, such as -1.5,2,0: meters, meters and radians".to_owned())
 }
 
+/// Reads a finite number.
+pub(super) fn parse_number(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "expected a number, such as -9999".to_owned())
+}
+
 /// Reads a coordinate.
 fn parse_coordinate(text: &str) -> Result<i32, String> {
     text.trim().parse().map_err(|error: ParseIntError| match error.kind() {

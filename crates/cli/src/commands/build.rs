@@ -22,7 +22,7 @@ use crate::{
 pub(crate) fn build(args: &BuildArgs, screen: &mut Screen) -> Result<(), Failure> {
     // A setup without an index is refused before anything is computed.
     let asked = Asked::of(&args.flags.0, true)?;
-    let map = NamedMap::load_ground(&args.map, args.costs.band)?
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?
         .without_tiles()
         .for_agent(&args.map, asked.motion)?
         .with_costs(&args.map, &args.costs)?;

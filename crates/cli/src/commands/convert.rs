@@ -71,7 +71,8 @@ pub(crate) fn convert(args: &ConvertArgs, screen: &mut Screen) -> Result<(), Fai
     if let Form::Numbers(format) = form {
         return convert_numbers(args, format, screen);
     }
-    let map = NamedMap::load_with_tiles(&args.map)?.for_agent(&args.map, motion)?;
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?.with_costs(&args.map, &args.costs)?;
+    let map = map.for_agent(&args.map, motion)?;
     let image = path.with_extension("pgm");
     let written = match form {
         Form::Ros => vec![path, image.as_path()],
@@ -141,15 +142,15 @@ fn convert_numbers(args: &ConvertArgs, format: SurfaceFormat, screen: &mut Scree
 
 /// The numbers: those of the costs, if there are some, else those of the file itself.
 fn numbers(args: &ConvertArgs) -> Result<Surface, Failure> {
-    let CostsArgs { costs, band, inflation } = &args.costs;
+    let CostsArgs { costs, reading, inflation } = &args.costs;
     if costs.is_none() && inflation.inflation_radius.is_none() {
         let is_picture = SurfaceFormat::of_path(&args.map.map).is_some();
         return match is_picture || is_surface(&args.map.map) {
-            true => read(&args.map.map, *band),
+            true => read(&args.map.map, *reading),
             false => Err(Failure::NoNumbers { map: file_name(&args.map.map) }),
         };
     }
-    let map = NamedMap::load_ground(&args.map, *band)?.with_costs(&args.map, &args.costs)?;
+    let map = NamedMap::load_ground(&args.map, *reading)?.with_costs(&args.map, &args.costs)?;
     let Some(costs) = &map.costs else { return Err(Failure::NoNumbers { map: map.name }) };
     let (width, height) = (map.grid.width(), map.grid.height());
     let numbers: Vec<f64> = map.cells_by_row().map(|at| costs.cost(at).unwrap_or(NO_DATA)).collect();

@@ -64,7 +64,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     }
     let outputs = args.output.iter().map(|path| Ok((path.as_path(), Form::of(path)?)));
     let outputs = outputs.collect::<Result<Vec<_>, Failure>>()?;
-    let map = NamedMap::load_ground(&args.map, args.costs.band)?.without_tiles();
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?.without_tiles();
     let map = map.for_agent(&args.map, motion)?.with_numbers(&args.map, &args.costs, &args.walking)?;
     let written: Vec<&Path> =
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();

@@ -122,7 +122,7 @@ fn check_number(args: &RunArgs, queries: &Queries) -> Result<(), Failure> {
 /// The map, with its characters if they are to be drawn, or say which ground a cell is.
 fn load(args: &RunArgs) -> Result<NamedMap, Failure> {
     let needs_tiles = args.grounds || matches!(args.draw, Some(None));
-    let map = NamedMap::load_ground(&args.map, args.costs.band)?;
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?;
     Ok(if needs_tiles { map } else { map.without_tiles() })
 }
 

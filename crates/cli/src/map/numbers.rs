@@ -12,7 +12,7 @@ use mediant_formats::{Georeference, Surface, SurfaceFormat, SurfaceOptions, read
 
 use super::NamedMap;
 use crate::{
-    args::{CostsArgs, InflationArgs, MapArgs, WalkingArgs},
+    args::{CostsArgs, InflationArgs, MapArgs, ReadingArgs, WalkingArgs},
     failure::Failure,
 };
 
@@ -25,8 +25,8 @@ pub(crate) struct Raster {
 
 impl NamedMap {
     /// The map of a raster: cells without data are blocked. Its numbers are nothing yet.
-    pub(super) fn of_raster(name: String, path: &Path, band: Option<u16>) -> Result<Self, Failure> {
-        let surface = read_costs(path, band)?;
+    pub(super) fn of_raster(name: String, path: &Path, reading: ReadingArgs) -> Result<Self, Failure> {
+        let surface = read_costs(path, reading)?;
         let map = mediant::Map::with_data(&surface).map_err(|error| in_file(path, error))?;
         let raster = Some(Raster { path: path.to_owned(), surface: Arc::new(surface) });
         Ok(Self { raster, ..Self::plain(name, Arc::clone(map.grid())) })
@@ -50,7 +50,7 @@ impl NamedMap {
         let Some(elevation) = &walking.elevation else { return self.with_costs(map, costs) };
         let own = self.raster.take();
         let (path, surface) = match (elevation, own) {
-            (Some(path), None) => (path.clone(), Arc::new(read_costs(path, costs.band)?)),
+            (Some(path), None) => (path.clone(), Arc::new(read_costs(path, costs.reading)?)),
             (None, Some(Raster { path, surface })) => (path, surface),
             (Some(path), Some(_)) => {
                 let (option, path) = ("--elevation", path.clone());
@@ -70,8 +70,10 @@ impl NamedMap {
             }
             (Some(_), None) => surface,
         };
-        let friction =
-            walking.friction.as_ref().map(|path| Ok::<_, Failure>((path, read_costs(path, None)?)));
+        let friction = walking
+            .friction
+            .as_ref()
+            .map(|path| Ok::<_, Failure>((path, read_costs(path, ReadingArgs::default())?)));
         let friction = friction.transpose()?;
         let (map, pace) = (self.to_library(), walking.pace.pace());
         let plain = map.walking_of(&surface, None, &pace).map_err(|error| in_file(&path, error))?;
@@ -89,12 +91,15 @@ impl NamedMap {
     /// The map with the costs that the arguments name, if they do.
     pub(crate) fn with_costs(self, map: &MapArgs, args: &CostsArgs) -> Result<Self, Failure> {
         let of_raster = self.raster.is_some();
+        if let Some(option) = args.reading.given().filter(|_| !of_raster && args.costs.is_none()) {
+            return Err(Failure::NoRaster { option });
+        }
         let own = self.with_own_costs()?;
         match (&args.costs, args.inflation.inflation_radius) {
             (Some(path), _) if of_raster => {
                 Err(Failure::TwoNumbers { option: "--costs", path: path.clone(), map: own.name })
             }
-            (Some(path), _) => own.with_surface(path, &read_costs(path, args.band)?),
+            (Some(path), _) => own.with_surface(path, &read_costs(path, args.reading)?),
             (None, Some(_)) if of_raster => Err(Failure::NotOnCosts { option: "--inflation-radius" }),
             (None, Some(radius)) => own.inflated(map, &args.inflation, radius),
             (None, None) => Ok(own),
@@ -185,16 +190,20 @@ pub(crate) fn is_surface(path: &Path) -> bool {
 }
 
 /// Reads a raster of numbers.
-pub(crate) fn read(path: &Path, band: Option<u16>) -> Result<Surface, Failure> {
-    let options = SurfaceOptions { band, ..SurfaceOptions::default() };
-    Ok(read_surface(path, &options)?)
+pub(crate) fn read(path: &Path, reading: ReadingArgs) -> Result<Surface, Failure> {
+    let options = SurfaceOptions { band: reading.band, ..SurfaceOptions::default() };
+    let surface = read_surface(path, &options)?;
+    Ok(match reading.no_data {
+        None => surface,
+        no_data => surface.with_no_data(no_data),
+    })
 }
 
 /// Reads a raster whose numbers become those of a map, unless its header states more than there is room for.
-fn read_costs(path: &Path, band: Option<u16>) -> Result<Surface, Failure> {
+fn read_costs(path: &Path, reading: ReadingArgs) -> Result<Surface, Failure> {
     let (width, height) = surface_size(path)?;
     Costs::check_size(width, height).map_err(|error| in_file(path, error))?;
-    read(path, band)
+    read(path, reading)
 }
 
 /// The error of the numbers in a file.

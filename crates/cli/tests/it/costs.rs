@@ -268,3 +268,68 @@ fn pictures_show_the_land() {
     assert!(drawn.contains(cheap) && drawn.contains(dear), "{drawn}");
     assert!(!screen(plain).contains(cheap) && !screen(plain).contains(dear));
 }
+
+#[test]
+fn bands_and_numbers_for_no_data_are_honored() {
+    let (files, arguments) = files();
+    // Two bands of 2 × 3 cells.
+    let text = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 3)}";
+    let begin = [b"\x93NUMPY\x01\0", &(text.len() as u16).to_le_bytes()[..], text.as_bytes()].concat();
+    let array = files.add("bands.npy", [&begin[..], &[1, 1, 1, 1, 1, 1], &[2, 7, 2, 2, 2, 2]].concat());
+    let reach = |options: &str| succeeds(&format!("reach {array} --from 0,0 --k 2 -o - {options}"));
+    assert!(reach("--band 1").contains("\n2,0,2\n") && reach("--band 2").contains("\n2,0,8\n"));
+    assert!(!reach("--band 2 --no-data 7").contains("\n1,0,"));
+    let ran = run(&format!("reach {array} --from 0,0"));
+    assert!(ran.status == Some(2) && ran.stderr.contains("one band, found 2"), "{}", ran.stderr);
+    let costs = files.path("costs.asc");
+    check(
+        &format!("reach {arguments} --from 0,0 --band 2"),
+        &format!("{costs}: expected band 1, which is the only one, found 2; leave `band` out"),
+    );
+    // It counts more than what the file says.
+    let ran = run(&format!("reach {arguments} --from 0,0 --k 2 --no-data 4"));
+    assert!(ran.status == Some(1) && ran.stderr.contains("(0, 0) is blocked"), "{}", ran.stderr);
+    let heights = files.path("heights.npy");
+    Surface::new(3, 1, vec![-1.0_f32, 5.0, -9999.0]).expect("three").save(&heights).expect("a file");
+    let walk = format!("reach {heights} --elevation --cell-size 10 --from 0,0 -o -");
+    assert_eq!(succeeds(&format!("{walk} --no-data -9999")).lines().count(), 3);
+    assert_eq!(succeeds(&walk).lines().count(), 4);
+    // A picture of gray, and what is written of it.
+    let gray = files.path("gray.png");
+    Surface::new(3, 1, vec![0_u8, 5, 9]).expect("three").save(&gray).expect("a file");
+    let written = files.path("gray.npy");
+    succeeds(&format!("convert {gray} --no-data 0 -o {written}"));
+    let read = read_surface(&written, &SurfaceOptions::default()).expect("a raster");
+    assert_eq!(read.iter().collect::<Vec<_>>(), [None, Some(5.0), Some(9.0)]);
+    let map = files.path("band.map");
+    succeeds(&format!("convert {array} --band 2 --no-data 7 -o {map}"));
+    assert!(std::fs::read_to_string(&map).expect("a map").contains("\n.@.\n...\n"));
+    for option in ["--band 1", "--no-data 0"] {
+        let name = option.split(' ').next().expect("a name");
+        for line in ["reach builtin:cave --from 2,5".to_owned(), format!("convert builtin:cave -o {map}")] {
+            check(
+                &format!("{line} {option}"),
+                &format!("{name} is for a raster of costs or elevations: leave it out, or give one"),
+            );
+        }
+    }
+    let ran = run(&format!("reach {array} --from 0,0 --no-data none"));
+    assert!(ran.status == Some(2) && ran.stderr.contains("such as -9999"), "{}", ran.stderr);
+}
+
+#[test]
+fn a_grid_in_degrees_is_refused() {
+    let (files, arguments) = files();
+    files.add("costs.prj", "PROJCS[\"UTM\",GEOGCS[\"WGS 84\"]]");
+    succeeds(&format!("reach {arguments} --from 0,0"));
+    files.add("costs.prj", "GEOGCS[\"WGS 84\"]");
+    let costs = files.path("costs.asc");
+    let degrees = format!(
+        "{costs}: the coordinates are degrees, and the width of a cell differs from row to row: project it to \
+         meters first, as by `gdalwarp -t_srs EPSG:3857`, or better by a projection that keeps lengths there"
+    );
+    for line in [format!("reach {arguments}"), format!("reach {costs}"), format!("reach {costs} --elevation")]
+    {
+        check(&format!("{line} --from 0,0"), &degrees);
+    }
+}
