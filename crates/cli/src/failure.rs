@@ -63,8 +63,14 @@ pub(crate) enum Failure {
     NoRaster { option: &'static str },
     #[error("back links of ArcGIS are for k = 2 and 3, not for k = {k}: choose --directions degrees")]
     BackLinks { k: mediant::K },
+    #[error(
+        "--from cannot be used with --to but for the paths between them: leave one of the two out, or give --corridor"
+    )]
+    NoCorridor,
     #[error("{option} does not go with costs: leave it out, or leave the costs out")]
     NotOnCosts { option: &'static str },
+    #[error("{option} does not go with --elevation: leave one of the two out")]
+    NotOverElevation { option: &'static str },
     #[error("{}: {source}{}", path.display(), cure(source))]
     Numbers { path: PathBuf, source: Box<mediant::Error> },
     #[error("{option} {} for {map}, whose cells have numbers of their own: leave one of the two out", path.display())]

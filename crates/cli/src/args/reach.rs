@@ -27,9 +27,13 @@ pub(crate) struct ReachArgs {
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     pub(crate) from: Vec<Place>,
     /// In place of --from: a place to which distances are measured, which is another time over elevation
-    #[arg(long, value_name = "X,Y", conflicts_with = "from")]
+    #[arg(long, value_name = "X,Y")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     pub(crate) to: Vec<Place>,
+    /// Write the cost of the best path from a --from to a --to over each vertex; those with little more than
+    /// the least are a corridor
+    #[arg(long, requires_all = ["from", "to"], conflicts_with_all = ["directions", "allocation"])]
+    pub(crate) corridor: bool,
     /// Go no further than this, in cells (with --world in meters); where cells have costs, in costs, and over
     /// elevation in seconds
     #[arg(long, value_name = "COST", allow_negative_numbers = true)]
@@ -89,6 +93,9 @@ costs, and distances are the least costs: an accumulated cost surface.
 With --elevation they are the least times to walk from the sources, in seconds where the raster is in \
 meters; with --to in place of --from, the times to walk to them.
 
+With --corridor they are the costs of the best paths from --from to --to over each vertex, the sum of those from the \
+one and to the other; --within keeps those up to it.
+
 With --directions or --allocation files and pictures have these in place of distances. Where there is none \
 (outside what is reached; with grass at sources) the array has 'not a number', rasters no data, and the CSV no \
 line.
@@ -103,4 +110,5 @@ Examples:
   mediant reach dem.tif --elevation --pace langmuir --to 100,200 -o back.asc
   mediant reach friction.tif --from 100,200 --from 9,9 --allocation -o nearest.tif
   mediant reach friction.tif --from 100,200 --directions arcgis -o links.tif
+  mediant reach friction.tif --from 100,200 --to 9,9 --corridor -o corridor.tif
   mediant reach depot.yaml --world --from 0.5,0.5 --within 1.5 --radius 0.1";

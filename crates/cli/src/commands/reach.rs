@@ -9,7 +9,7 @@ use mediant::{Error, Field, K, Motion, Vertex};
 use mediant_formats::{Picture, Surface, SurfaceFormat};
 
 use crate::{
-    args::{Directions, ReachArgs},
+    args::{Directions, Place, ReachArgs},
     failure::{Ending, Failure},
     map::NamedMap,
     run::{
@@ -59,6 +59,9 @@ impl Form {
 /// Runs the command.
 pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let motion = args.motion.0.motion()?;
+    if !args.corridor && !args.from.is_empty() && !args.to.is_empty() {
+        return Err(Failure::NoCorridor);
+    }
     if args.directions == Some(Directions::Arcgis) && !matches!(motion.k, K::N4 | K::N8) {
         return Err(Failure::BackLinks { k: motion.k });
     }
@@ -70,24 +73,32 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
     check_outputs(&args.map.map, args.costs.inputs().chain(args.walking.inputs()), &written)?;
     let placement = motion.rules.placement();
-    let places = if args.to.is_empty() { &args.from } else { &args.to };
-    let sources = places.iter().map(|&place| map.vertex(placement, place));
-    let sources = sources.collect::<Result<Vec<Vertex>, Failure>>()?;
+    let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
+        places.iter().map(|&place| map.vertex(placement, place)).collect()
+    };
+    let (from, to) = (vertices(&args.from)?, vertices(&args.to)?);
     let limit = args.within.map(|cost| if map.has_costs() { cost } else { map.cells(cost) });
     let space = map.space(motion)?;
-    let (ends, greatest) = (sources.iter().copied(), limit.unwrap_or(f64::INFINITY));
-    let field = match args.to.is_empty() {
-        true => space.field_from_within(ends, greatest),
-        false => space.field_within(ends, greatest),
+    let greatest = limit.unwrap_or(f64::INFINITY);
+    let leads_to = || space.field_within(to.iter().copied(), greatest);
+    let fields = match args.from.is_empty() {
+        true => leads_to().map(|field| (field, None)),
+        false => space.field_from_within(from.iter().copied(), greatest).and_then(|field| {
+            let other = args.corridor.then(leads_to).transpose()?;
+            Ok((field, other))
+        }),
     };
-    let field = match field {
-        Ok(field) => field,
+    let (field, other) = match fields {
+        Ok(fields) => fields,
         Err(Error::Query(error)) => {
             return Ok(Ending::QueryErrors(explain(error, &map, placement)));
         }
         Err(error) => return Err(error.into()),
     };
-    let values = Values::of(args, &field);
+    let values = match &other {
+        Some(other) => Values::of_corridor(&field, other, greatest)?,
+        None => Values::of(args, &field),
+    };
     for (path, form) in &outputs {
         match form {
             Form::Printed => csv(values.name, values.iter(&field), screen)?,
@@ -97,14 +108,20 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
                 write_file(path, |file| npy::write(shape, values.rows.iter().copied(), file))?;
             }
             Form::Surface(_) => surface(&map, &field, &values)?.save(path)?,
-            Form::Picture => picture(&map, motion, &field, &values).write_to(path)?,
+            Form::Picture => {
+                picture(&map, motion, &field, &values).goals(to.iter().copied()).write_to(path)?;
+            }
         }
     }
     // A summary would spoil the CSV on stdout.
     if outputs.iter().all(|(_, form)| *form != Form::Printed) {
-        let way = if args.to.is_empty() { "from" } else { "to" };
-        summary(&map, motion, &field, (way, &sources), limit, screen)?;
-        if let Some(moved) = map.moved(placement, places, &sources).filter(|&moved| moved > 0.0) {
+        match args.corridor {
+            true => corridor_summary(&map, motion, &values, [&from, &to], screen)?,
+            false if to.is_empty() => summary(&map, motion, &field, ("from", &from), limit, screen)?,
+            false => summary(&map, motion, &field, ("to", &to), limit, screen)?,
+        }
+        let (places, sources) = ([&args.from[..], &args.to].concat(), [from, to].concat());
+        if let Some(moved) = map.moved(placement, &places, &sources).filter(|&moved| moved > 0.0) {
             writeln!(screen, "  moved to vertices: the sources by at most {moved:.3} m")?;
         }
     }
@@ -127,6 +144,13 @@ impl Values {
             }
             None => Self { name: "distance", rows: field.lengths() },
         }
+    }
+
+    /// The costs of the best paths over each vertex, up to the greatest.
+    fn of_corridor(from: &Field, to: &Field, greatest: f64) -> Result<Self, Error> {
+        let mut rows = from.corridor(to)?;
+        rows.iter_mut().filter(|cost| **cost > greatest).for_each(|cost| *cost = f64::INFINITY);
+        Ok(Self { name: "cost", rows })
     }
 
     fn get(&self, field: &Field, at: Vertex) -> Option<f64> {
@@ -165,6 +189,37 @@ fn picture<'m>(map: &'m NamedMap, motion: Motion, field: &Field, values: &Values
         .caption(format!("{}: {motion}", printable(&map.name)))
 }
 
+/// One place in words, or how many there are.
+fn in_words(places: &[Vertex], name: &str) -> String {
+    match places {
+        [only] => only.to_string(),
+        _ => format!("{} {name}", grouped(places.len() as u64)),
+    }
+}
+
+/// Writes how many vertices are in the corridor, and what the best path costs.
+fn corridor_summary(
+    map: &NamedMap,
+    motion: Motion,
+    values: &Values,
+    [from, to]: [&[Vertex]; 2],
+    screen: &mut Screen,
+) -> io::Result<()> {
+    let known = || values.rows.iter().copied().filter(|cost| cost.is_finite());
+    let least = known().fold(f64::INFINITY, f64::min);
+    let name = screen.paint(BOLD, printable(&map.name)).to_string();
+    let (motion, from, to) = (motion_in_words(motion), in_words(from, "sources"), in_words(to, "goals"));
+    if least.is_infinite() {
+        return writeln!(screen, "{name} · {motion} · no way from {from} to {to}");
+    }
+    let vertices = count(known().count() as u64, "vertex", "vertices");
+    let unit = if map.walking.is_some() { " s" } else { "" };
+    writeln!(
+        screen,
+        "{name} · {motion} · {vertices} on ways from {from} to {to}, at least {least:.4}{unit} in all"
+    )
+}
+
 /// Writes how many vertices are reached, and which is the furthest.
 fn summary(
     map: &NamedMap,
@@ -175,10 +230,7 @@ fn summary(
     screen: &mut Screen,
 ) -> io::Result<()> {
     let Some(&first) = sources.first() else { return Ok(()) };
-    let from = match sources {
-        [_] => first.to_string(),
-        _ => format!("{} sources", grouped(sources.len() as u64)),
-    };
+    let from = in_words(sources, "sources");
     let frame = map.frame.filter(|_| !map.has_costs());
     let meters = |cells: f64| frame.map(|frame| rounded(cells * frame.resolution()));
     let unit = if map.walking.is_some() { " s" } else { "" };

@@ -333,3 +333,88 @@ fn a_grid_in_degrees_is_refused() {
         check(&format!("{line} --from 0,0"), &degrees);
     }
 }
+
+/// The places of a CSV, and their numbers.
+fn number(csv: &str) -> Vec<(String, f64)> {
+    let rows = csv.lines().skip(1).map(|row| row.rsplit_once(',').expect("a number"));
+    rows.map(|(at, cost)| (at.to_owned(), cost.parse().expect("a number"))).collect()
+}
+
+#[test]
+fn a_corridor_is_the_least_cost_over_each_cell() {
+    let (files, arguments) = files();
+    for motion in ["--k 2", "--k 4", "--k 5 --placement corner"] {
+        let reach = format!("reach {arguments} {motion} -o -");
+        let [from, to] =
+            ["--from 0,0 --from 0,2", "--from 4,0"].map(|ends| number(&succeeds(&format!("{reach} {ends}"))));
+        let text = succeeds(&format!("{reach} --from 0,0 --from 0,2 --to 4,0 --corridor"));
+        assert!(text.starts_with("x,y,cost\n"), "{text}");
+        let corridor = number(&text);
+        assert_eq!(corridor.len(), from.len(), "{motion}");
+        for (((at, sum), one), other) in corridor.iter().zip(&from).zip(&to) {
+            assert!(*at == one.0 && *at == other.0, "{motion}: {at}");
+            assert!((sum - one.1 - other.1).abs() < 1e-9 * sum, "{motion}: {at}");
+        }
+        let least = corridor.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+        let near = number(&succeeds(&format!(
+            "{reach} --from 0,0 --from 0,2 --to 4,0 --corridor --within {}",
+            least + 1.0
+        )));
+        assert!(near.iter().all(|(_, cost)| *cost <= least + 1.0) && !near.is_empty(), "{motion}");
+        assert_eq!(near.len(), corridor.iter().filter(|(_, cost)| *cost <= least + 1.0).count(), "{motion}");
+        let said = succeeds(&format!("reach {arguments} {motion} --from 0,0 --from 0,2 --to 4,0 --corridor"));
+        assert!(
+            said.contains(&format!("on ways from 2 sources to (4, 0), at least {least:.4} in all")),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn a_corridor_is_written_in_all_formats() {
+    let (files, arguments) = files();
+    let outputs = ["way.tif", "way.asc", "way.npy", "way.png", "way.svg"].map(|name| files.path(name));
+    let written = outputs.iter().map(|path| format!(" -o {path}")).collect::<String>();
+    succeeds(&format!("reach {arguments} --k 2 --from 0,2 --to 4,2 --corridor{written}"));
+    for output in &outputs[..3] {
+        let read = read_surface(output, &SurfaceOptions::default()).expect("a raster");
+        let costs = [0, 1, 2, 3, 4].map(|x| read.get(x, 2));
+        assert_eq!((costs, read.get(2, 0)), ([Some(4.0); 5], Some(23.0)), "{output}");
+    }
+    assert_eq!(
+        read_surface(&outputs[0], &SurfaceOptions::default()).expect("a raster").get(2, 1),
+        None,
+        "the wall"
+    );
+}
+
+#[test]
+fn a_corridor_is_of_lengths_or_of_times() {
+    let (files, arguments) = files();
+    // On a map without costs they are lengths, over elevation times there and on.
+    let map = files.path("land.map");
+    let plain = succeeds(&format!("reach {map} --k 2 --from 0,0 --to 4,0 --corridor -o -"));
+    assert!(plain.contains("\n2,0,4\n") && plain.contains("\n2,2,8\n"), "{plain}");
+    let hill = files.add("hill.asc", "ncols 3\nnrows 1\ncellsize 10\n0 5 9\n");
+    let time = |ends: &str| {
+        let times = number(&succeeds(&format!("reach {hill} --elevation {ends} -o -")));
+        times.iter().map(|(_, time)| *time).collect::<Vec<f64>>()
+    };
+    let (up, all) = (time("--from 0,0")[2], time("--from 0,0 --to 2,0 --corridor"));
+    assert!(all.len() == 3 && all.iter().all(|time| (time - up).abs() < 1e-6 * up), "{all:?}, not {up}");
+    let apart = files.add("apart.map", "type octile\nheight 1\nwidth 3\nmap\n.@.\n");
+    let said = succeeds(&format!("reach {apart} --from 0,0 --to 2,0 --corridor"));
+    assert!(said.ends_with("no way from (0, 0) to (2, 0)\n"), "{said}");
+    check(
+        &format!("reach {arguments} --from 0,0 --to 4,0"),
+        "--from cannot be used with --to but for the paths between them: leave one of the two out, or give --corridor",
+    );
+    for (options, part) in
+        [("--corridor", "--to"), ("--to 4,0 --corridor --allocation", "cannot be used with")]
+    {
+        let ran = run(&format!("reach {arguments} --from 0,0 {options}"));
+        assert!(ran.status == Some(2) && ran.stderr.contains(part), "{options}: {}", ran.stderr);
+    }
+    let ran = run(&format!("reach {arguments} --from 0,0 --to 2,1 --corridor"));
+    assert!(ran.status == Some(1) && ran.stderr.contains("(2, 1) is blocked"), "{}", ran.stderr);
+}

@@ -240,5 +240,5 @@ fn the_map_is_not_overwritten() {
 fn the_examples_of_the_help_run() {
     let files = Files::new();
     add_example_files(&files);
-    run_examples(&files, "reach", 10);
+    run_examples(&files, "reach", 11);
 }
