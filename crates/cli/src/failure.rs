@@ -121,7 +121,7 @@ pub(crate) enum Failure {
     NoReference { engine: Engine, placement: PlacementKind },
     #[error(transparent)]
     Setup(#[from] SetupError),
-    #[error(transparent)]
+    #[error("{}", in_words(.0))]
     Library(#[from] mediant::Error),
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -171,6 +171,17 @@ pub(crate) enum Failure {
     K(#[from] mediant::moves::KError),
     #[error("cannot write the output: {0}")]
     Output(#[from] io::Error),
+}
+
+/// An error of the library, whose cure may be an option here.
+fn in_words(error: &mediant::Error) -> String {
+    match error {
+        mediant::Error::Freed { cell } => format!(
+            "cell {cell} is blocked and has no cost, so that it cannot be freed: leave --unblock and --free-ends \
+             out, or give it a cost in the raster"
+        ),
+        error => error.to_string(),
+    }
 }
 
 /// The cure for the numbers of a raster, beyond what the library knows of it.

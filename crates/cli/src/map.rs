@@ -59,23 +59,14 @@ pub(crate) struct NamedMap {
 }
 
 impl NamedMap {
-    /// Reads a map file, or parses the bundled map that `builtin:NAME` names.
-    pub(crate) fn load(args: &MapArgs) -> Result<Self, Failure> {
-        Ok(Self::load_with_tiles(args)?.without_tiles())
-    }
-
     /// The map without its characters.
     pub(crate) fn without_tiles(self) -> Self {
         Self { tiles: None, ..self }
     }
 
-    /// [`load`](Self::load), with the characters of a MovingAI map, to draw or to write them.
-    pub(crate) fn load_with_tiles(args: &MapArgs) -> Result<Self, Failure> {
-        Self::load_ground(args, ReadingArgs::default())?.with_own_costs()
-    }
-
-    /// The same before it is known what the numbers of a raster are, which is read as these
-    /// arguments say.
+    /// Reads a map file, or parses the bundled map that `builtin:NAME` names, with the characters of a
+    /// MovingAI map, to draw or to write them. It is not known yet what the numbers of a raster are, which is
+    /// read as these arguments say.
     pub(crate) fn load_ground(args: &MapArgs, reading: ReadingArgs) -> Result<Self, Failure> {
         let options = args.options()?;
         if let Some(builtin) = Builtin::of_path(&args.map) {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{
+    costs::{CostsArgs, WalkingArgs},
     flags::{Flags, MOTION},
     map::MapArgs,
     run::Format,
@@ -17,6 +18,10 @@ use super::{
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) costs: CostsArgs,
+    #[command(flatten)]
+    pub(crate) walking: WalkingArgs,
     /// The paths: what `mediant run --format jsonl` prints, or CSV with the columns x and y for one path; -
     /// is stdin
     #[arg(required = true, value_name = "PATHS")]
@@ -46,9 +51,11 @@ With --radius a path must hold on the map of that agent, which is that of run wi
 by default). With --world, CSV is in meters. A path that was found with --grounds must hold on the ground of \
 its start.
 
+With --costs, on a raster, or with --elevation a path must also cost what its run says, but for rounding.
+
 With --format jsonl: a line {\"type\": \"path\"} for each path, with \"file\", \"index\", \"holds\", and \
 for one that does not hold \"error\", \"holds_up_to\" (the number of waypoints to which it can be \
-followed), \"segment\", \"from\", \"to\" and \"cell\", as far as there are such; last a line {\"type\": \
+followed), \"segment\", \"from\", \"to\" and \"cell\", as far as there are such; on costs with \"cost\"; last a line {\"type\": \
 \"summary\"} with \"paths\" and \"broken\".
 
 Exit status: 0 if all paths hold, 1 if some do not, 2 for bad arguments, or a file that cannot be read.
@@ -57,4 +64,6 @@ Examples:
   mediant check arena.map arena.jsonl
   mediant check arena.map arena.csv --k 3
   mediant check arena.map arena.jsonl arena.csv --format jsonl
-  mediant check depot.yaml depot.csv --world";
+  mediant check depot.yaml depot.csv --world
+  mediant check friction.tif friction.jsonl
+  mediant check dem.tif walk.jsonl --elevation";

@@ -112,6 +112,16 @@ impl QueryArgs {
         (exceptions != Exceptions::new()).then_some(exceptions)
     }
 
+    /// An option by which cells count otherwise than on the map, if one was given.
+    pub(crate) const fn exception(&self) -> Option<&'static str> {
+        match (self.free_ends, self.blocked_places.is_empty(), self.free_places.is_empty()) {
+            (true, ..) => Some("--free-ends"),
+            (_, false, _) => Some("--block"),
+            (_, _, false) => Some("--unblock"),
+            (false, true, true) => None,
+        }
+    }
+
     /// Whether a single query has more than one start or goal.
     pub(crate) const fn has_several_ends(&self) -> bool {
         self.from_places.len() > 1 || self.to_places.len() > 1
@@ -160,13 +170,13 @@ mod tests {
     use clap::Parser;
 
     use super::*;
-    use crate::args::{Cli, Command};
+    use crate::args::{Cli, Command, ReadingArgs};
 
     fn wishes(options: &str) -> QueryArgs {
         let words = "mediant run builtin:cave".split(' ').chain(options.split_whitespace());
         match Cli::try_parse_from(words).map(|cli| cli.command) {
             Ok(Command::Run(run)) => {
-                let map = NamedMap::load(&run.map).expect("a bundled map");
+                let map = NamedMap::load_ground(&run.map, ReadingArgs::default()).expect("a bundled map");
                 run.query.on(run.flags.0.wishes(), &map, PlacementKind::Center).expect("vertices")
             }
             other => panic!("{other:?}"),

@@ -13,6 +13,7 @@ use super::{
     flags::{ENGINE, Flags, MOTION, OPTIONS, SMOOTH, WISHES},
     map::MapArgs,
     query::QueryArgs,
+    setup::Asked,
     value::{one_of, parse_count},
 };
 use crate::failure::Failure;
@@ -35,7 +36,8 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scen", "from", "to", "distances"])]
     pub(crate) pairs: Option<PathBuf>,
     /// A timeline of JSON lines, with edits of the map, {"type":"edit","x","y","rows":["..#"]} (# is blocked,
-    /// . free), and the queries between them, {"type":"query","start":[x,y],"goal":[x,y]}; - is stdin
+    /// . free; with costs also "costs":[[1,2.5,null]] in place of rows), and the queries between them,
+    /// {"type":"query","start":[x,y],"goal":[x,y]}; - is stdin
     #[arg(long, value_name = "FILE", conflicts_with_all = ["scen", "pairs", "from", "to", "grounds"])]
     pub(crate) edits: Option<PathBuf>,
     /// Take the instances whose index, counted from 0, is divisible by N
@@ -116,7 +118,8 @@ After an edit the index is repaired, or prepared anew where its engine cannot be
 The time of a change has all of that; the time of a query is as ever. The coordinates of a timeline are cells and \
 vertices, also with --world. Edits with \"more\": true are one change with the next. With --format jsonl each edit is \
 repeated, with the number of \"cells\" that it changed and the \"nanos\" of its change (0 where more follow), so that \
-the output can be replayed; it is a timeline, too.
+the output can be replayed; it is a timeline, too. Where cells have costs a . frees a cell at its last cost, and what \
+is repeated is \"costs\": a number for each cell, null for a blocked one.
 
 The map may be a scenario of the Grid-Based Path Planning Competition, version 2, with its file of patches beside it: \
 its patches and queries are a timeline, and its octile costs are compared. The patches before the first query make the \
@@ -154,6 +157,12 @@ Examples:
 const REFERENCES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 
 impl RunArgs {
+    /// The setup that is asked for.
+    pub(crate) fn asked(&self) -> Result<Asked, Failure> {
+        let Self { flags, index, map, costs, walking, .. } = self;
+        Asked::of_numbers(&flags.0, index.is_some(), map, costs, walking)
+    }
+
     /// The files to be written.
     pub(crate) fn outputs(&self) -> Vec<&Path> {
         let drawn = self.draw.iter().flatten().chain(&self.trace);

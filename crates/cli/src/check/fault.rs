@@ -4,6 +4,9 @@ use std::fmt;
 
 use mediant::{K, Path, Space, Vertex, errors::BrokenPath};
 
+/// Costs that differ less, as a share of one of them, are the same.
+const NEAR: f64 = 1e-9;
+
 /// A fault of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Fault {
@@ -11,6 +14,8 @@ pub(crate) enum Fault {
     Broken(BrokenPath),
     /// A segment is not made of moves of N(k).
     Move { index: usize, from: Vertex, to: Vertex, k: K },
+    /// It costs another amount than its file says.
+    Cost { said: f64, found: f64 },
 }
 
 impl Fault {
@@ -27,12 +32,19 @@ impl Fault {
         wrong.next().map(|(ends, index)| Self::Move { index, from: ends[0], to: ends[1], k: over })
     }
 
+    /// The fault of a cost in a file.
+    pub(crate) fn of_cost(said: Option<f64>, found: Option<f64>) -> Option<Self> {
+        let (said, found) = said.zip(found)?;
+        let is_same = (said - found).abs() <= NEAR * found.max(said);
+        (!is_same).then_some(Self::Cost { said, found })
+    }
+
     /// The segment, from 0, with its ends.
     pub(crate) const fn segment(&self) -> Option<(usize, Vertex, Vertex)> {
         match *self {
             Self::Broken(BrokenPath::Segment { index, from, to, .. })
             | Self::Move { index, from, to, .. } => Some((index, from, to)),
-            Self::Broken(_) => None,
+            Self::Broken(_) | Self::Cost { .. } => None,
         }
     }
 
@@ -45,10 +57,12 @@ impl Fault {
     }
 
     /// The number of waypoints to which the path can be followed.
-    pub(crate) const fn holds_up_to(&self) -> usize {
+    /// `None` for a path that can be followed to its goal.
+    pub(crate) const fn holds_up_to(&self) -> Option<usize> {
         match self {
-            Self::Broken(broken) => broken.holds_up_to(),
-            Self::Move { index, .. } => *index + 1,
+            Self::Broken(broken) => Some(broken.holds_up_to()),
+            Self::Move { index, .. } => Some(*index + 1),
+            Self::Cost { .. } => None,
         }
     }
 }
@@ -60,6 +74,7 @@ impl fmt::Display for Fault {
             Self::Move { index, from, to, k } => {
                 write!(f, "segment {index} of the path, from {from} to {to}, is not made of moves of N({k})")
             }
+            Self::Cost { said, found } => write!(f, "the path costs {found} on this map, not {said}"),
         }
     }
 }

@@ -7,13 +7,13 @@ use std::{
 };
 
 use mediant::{K, Setup, Vertex};
-use mediant_formats::{MAX_FILE_BYTES, PlacedPatch, ReadError};
-use serde::Deserialize;
+use mediant_formats::{MAX_FILE_BYTES, ReadError};
+use serde::{Deserialize, de::IgnoredAny};
 use serde_json::Value;
 
 use crate::{
     args::Place,
-    edit::{EditLine, json_problem},
+    edit::{EditCells, EditLine, json_problem},
     failure::Failure,
 };
 
@@ -23,7 +23,7 @@ pub(crate) enum Entry {
     /// A run begins, with the map as it was read.
     Run,
     /// An edit of the map, for the paths after it, with its line.
-    Edit(usize, PlacedPatch),
+    Edit(usize, EditCells),
     Path(Listed),
 }
 
@@ -33,6 +33,8 @@ pub(crate) struct Listed {
     /// The index of its query; 0 for CSV.
     pub(crate) index: usize,
     pub(crate) waypoints: Waypoints,
+    /// Its cost in the file, of a run on costs.
+    pub(crate) cost: Option<f64>,
     /// The setup in the line of its run, if there is one.
     pub(crate) said: Option<RunSetup>,
 }
@@ -54,6 +56,8 @@ pub(crate) struct RunSetup {
     pub(crate) over: K,
     /// Whether each path is on the ground of its start.
     pub(crate) grounds: bool,
+    /// Whether its paths have costs.
+    pub(crate) has_costs: bool,
 }
 
 /// The lines of a run that are read; other keys are for others.
@@ -66,6 +70,8 @@ enum Line {
         index: usize,
         #[serde(default)]
         path: Vec<(i32, i32)>,
+        #[serde(default)]
+        cost: Option<f64>,
     },
     #[serde(other)]
     Other,
@@ -82,6 +88,8 @@ struct RunLine {
     smooth: bool,
     #[serde(default)]
     grounds: bool,
+    #[serde(default)]
+    costs: Option<IgnoredAny>,
 }
 
 impl RunLine {
@@ -92,7 +100,7 @@ impl RunLine {
         let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
         let setup = setup.map_err(|error| format!("the run: {error}"))?;
         let over = if self.smooth { K::Any } else { setup.paths() };
-        Ok(RunSetup { setup, over, grounds: self.grounds })
+        Ok(RunSetup { setup, over, grounds: self.grounds, has_costs: self.costs.is_some() })
     }
 }
 
@@ -164,10 +172,11 @@ fn jsonl(bytes: &[u8], entries: &mut Vec<Entry>) -> Result<(), Wrong> {
                 ));
             }
             Line::Edit(edit) => entries.push(Entry::Edit(number, edit.cells().map_err(wrong)?)),
-            Line::Query { index, path } if !path.is_empty() => {
+            Line::Query { index, path, cost } if !path.is_empty() => {
                 let waypoints = path.into_iter().map(Vertex::from).collect();
                 let waypoints = Waypoints::Vertices(waypoints);
-                entries.push(Entry::Path(Listed { index, waypoints, said }));
+                let cost = cost.filter(|_| said.is_some_and(|said| said.has_costs));
+                entries.push(Entry::Path(Listed { index, waypoints, cost, said }));
             }
             Line::Query { .. } | Line::Other => {}
         }
@@ -206,7 +215,7 @@ fn csv(bytes: &[u8], entries: &mut Vec<Entry>) -> Result<(), Wrong> {
     }
     if !places.is_empty() {
         let waypoints = Waypoints::Places(places);
-        entries.push(Entry::Path(Listed { index: 0, waypoints, said: None }));
+        entries.push(Entry::Path(Listed { index: 0, waypoints, cost: None, said: None }));
     }
     Ok(())
 }
@@ -265,6 +274,7 @@ mod tests {
                 gap: "closed".to_owned(),
                 smooth,
                 grounds: false,
+                costs: None,
             };
             line.setup()
         };

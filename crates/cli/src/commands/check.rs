@@ -12,7 +12,7 @@ use crate::{
         fault::Fault,
         file::{Entry, Listed, RunSetup, Waypoints, read, shown},
     },
-    edit::check_place,
+    edit::{CellCosts, LastCosts, check_place},
     failure::{Ending, Failure},
     map::NamedMap,
     terminal::{
@@ -39,6 +39,9 @@ struct PathLine<'a> {
     to: Option<[i32; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<[i32; 2]>,
+    /// By the costs of cells, or by the elevations, where there are such.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cost: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
 }
@@ -77,8 +80,9 @@ impl Rules {
     fn space(self, args: &CheckArgs, map: NamedMap) -> Result<Space, Failure> {
         let map = map.for_agent(&args.map, self.motion)?;
         let Motion { k, rules, .. } = self.motion;
-        // Between centers no engine searches at any angle. For sight, every k is as good.
-        let is_searched = k != K::Any || rules.placement() == PlacementKind::Corner;
+        // Between centers and on costs no engine searches at any angle. For sight, every k is as good.
+        let is_corner = rules.placement() == PlacementKind::Corner && !map.has_costs();
+        let is_searched = k != K::Any || is_corner;
         let k = if is_searched { k } else { K::N8 };
         Ok(map.space(Motion::new(k, rules))?)
     }
@@ -89,13 +93,15 @@ struct Checker<'a> {
     args: &'a CheckArgs,
     map: NamedMap,
     is_edited: bool,
+    last: LastCosts,
     /// The space of the last path, with its rules and the ground of its start.
     ready: Option<((Rules, Option<Ground>), Space)>,
 }
 
 impl<'a> Checker<'a> {
     fn new(args: &'a CheckArgs, map: &NamedMap) -> Self {
-        Self { args, map: map.clone(), is_edited: false, ready: None }
+        let last = LastCosts::new(map.costs.as_ref());
+        Self { args, map: map.clone(), is_edited: false, last, ready: None }
     }
 
     /// Begins a run, on the map as it was read.
@@ -106,7 +112,18 @@ impl<'a> Checker<'a> {
     }
 
     /// Follows an edit. The map of an agent with a radius is made anew for the next path.
-    fn edit(&mut self, cells: &PlacedPatch) -> Result<(), Failure> {
+    fn edit(&mut self, cells: &PlacedPatch, costs: Option<CellCosts>) -> Result<(), Failure> {
+        self.is_edited = true;
+        if let Some((costs, known)) = costs.zip(self.map.costs.as_ref()) {
+            let edited = known.edit_cells(costs.iter().copied())?;
+            if let Some((_, space)) = &mut self.ready {
+                *space = space.edit_costs(costs)?.after().clone();
+            }
+            let grid = Arc::clone(edited.map().grid());
+            self.map.take_edited(&grid, &grid);
+            self.map.costs = Some(edited);
+            return Ok(());
+        }
         let (at, blocked) = (cells.rectangle(), |x, y| cells.is_blocked(x, y));
         let ready = self.ready.take().filter(|_| self.args.map.radius.is_none());
         if let Some((of, space)) = ready {
@@ -117,12 +134,11 @@ impl<'a> Checker<'a> {
             None => Arc::new(self.map.ground.with_rectangle(at, blocked)),
         };
         self.map.take_edited(&grid, &grid);
-        self.is_edited = true;
         Ok(())
     }
 
-    /// The first fault of a path in a file.
-    fn fault(&mut self, file: &str, path: &Listed) -> Result<Option<Fault>, Failure> {
+    /// The first fault of a path in a file, and its cost where paths have costs.
+    fn fault(&mut self, file: &str, path: &Listed) -> Result<(Option<Fault>, Option<f64>), Failure> {
         let rules = Rules::new(self.args, path.said)?;
         let waypoints = vertices(file, path, rules, &self.map)?;
         let start = waypoints.first().filter(|_| by_ground(path));
@@ -134,9 +150,11 @@ impl<'a> Checker<'a> {
                 rules.space(self.args, on_ground.unwrap_or_else(|| self.map.clone()))?
             }
         };
-        let fault = Fault::of(&Path::new(waypoints), &space, rules.over);
+        let way = Path::new(waypoints);
+        let cost = space.cost(&way).filter(|_| self.map.has_costs());
+        let fault = Fault::of(&way, &space, rules.over).or_else(|| Fault::of_cost(path.cost, cost));
         self.ready = Some(((rules, ground), space));
-        Ok(fault)
+        Ok((fault, cost))
     }
 }
 
@@ -151,8 +169,10 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
     let files = files.collect::<Result<Vec<_>, Failure>>()?;
     let is_by_ground = |entry: &Entry| matches!(entry, Entry::Path(path) if by_ground(path));
     let of_grounds = files.iter().find(|(_, entries)| entries.iter().any(is_by_ground));
-    let map =
-        if of_grounds.is_some() { NamedMap::load_with_tiles(&args.map)? } else { NamedMap::load(&args.map)? };
+    let map = NamedMap::load_ground(&args.map, args.costs.reading)?;
+    let map = if of_grounds.is_some() { map } else { map.without_tiles() };
+    let map = map.with_numbers(&args.map, &args.costs, &args.walking)?;
+    map.refuse_on_costs("a run with --grounds", of_grounds.is_some())?;
     if let Some((file, _)) = of_grounds.filter(|_| !map.has_tiles()) {
         return Err(Failure::NoGrounds { path: file.into(), map: map.name });
     }
@@ -169,16 +189,17 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
                 }
                 Entry::Edit(line, cells) => {
                     let wrong = |problem| Failure::PathFile { path: file.into(), line: *line, problem };
-                    check_place(cells, &map.ground).map_err(wrong)?;
-                    checker.edit(cells)?;
+                    check_place(&cells.patch, &map.ground).map_err(wrong)?;
+                    let costs = checker.last.after(cells).map_err(wrong)?;
+                    checker.edit(&cells.patch, costs)?;
                     continue;
                 }
             };
-            let fault = checker.fault(file, path)?;
+            let (fault, cost) = checker.fault(file, path)?;
             paths += 1;
             broken += u64::from(fault.is_some());
             match (args.format, fault) {
-                (Format::Jsonl, fault) => line(screen, &path_line(file, path.index, fault))?,
+                (Format::Jsonl, fault) => line(screen, &path_line(file, path.index, fault, cost))?,
                 (Format::Table, Some(fault)) => say(screen, &map, (file, path.index), fault)?,
                 (Format::Table, None) => {}
             }
@@ -215,17 +236,18 @@ fn vertices(
 }
 
 /// The record of a path.
-fn path_line(file: &str, index: usize, fault: Option<Fault>) -> PathLine<'_> {
+fn path_line(file: &str, index: usize, fault: Option<Fault>, cost: Option<f64>) -> PathLine<'_> {
     let segment = fault.and_then(|fault| fault.segment());
     PathLine {
         file,
         index,
         holds: fault.is_none(),
-        holds_up_to: fault.map(|fault| fault.holds_up_to()),
+        holds_up_to: fault.and_then(|fault| fault.holds_up_to()),
         segment: segment.map(|(index, ..)| index),
         from: segment.map(|(_, from, _)| [from.x, from.y]),
         to: segment.map(|(.., to)| [to.x, to.y]),
         cell: fault.and_then(|fault| fault.cell()).map(|(x, y)| [x, y]),
+        cost,
         error: fault.map(|fault| fault.to_string()),
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use mediant::options::EngineOption;
 
 use crate::{
-    args::{Asked, Format, RunArgs},
+    args::{Format, RunArgs},
     draw::query::{Drawing, check_name},
     failure::{Ending, Failure},
     map::{NamedMap, file_name},
@@ -27,8 +27,7 @@ use crate::{
 
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
-    let asked =
-        Asked::of_numbers(&args.flags.0, args.index.is_some(), &args.map, &args.costs, &args.walking)?;
+    let asked = args.asked()?;
     let (rules, placement) = (asked.motion.rules, asked.motion.rules.placement());
     let reference = args.reference(rules)?;
     match &args.draw {
@@ -101,7 +100,10 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
 /// The map with its costs, if it has any; refuses options that have no meaning then.
 fn with_costs(args: &RunArgs, map: NamedMap) -> Result<NamedMap, Failure> {
     let map = map.with_numbers(&args.map, &args.costs, &args.walking)?;
-    map.refuse_on_costs("--edits", args.edits.is_some())?;
+    let edits = args.edits.as_ref().map(|_| "--edits");
+    if let Some(option) = edits.or(args.query.exception()).filter(|_| map.walking.is_some()) {
+        return Err(Failure::NotOverElevation { option });
+    }
     map.refuse_on_costs("--reference", args.reference.is_some())?;
     Ok(map)
 }

@@ -293,8 +293,12 @@ struct EditLine {
     /// The column and the row of the first cell.
     x: u32,
     y: u32,
-    /// `#` is blocked, `.` free.
-    rows: Vec<String>,
+    /// `#` is blocked, `.` free; not on costs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rows: Option<Vec<String>>,
+    /// The costs of the cells, `null` for blocked ones; only on costs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    costs: Option<Vec<Vec<Option<f64>>>>,
     /// The number of cells that it altered.
     cells: u64,
     /// The time of the change that it ends: of the map, the search space, the index and the planner.
@@ -311,10 +315,14 @@ impl From<&EditRecord<'_>> for EditLine {
     fn from(record: &EditRecord<'_>) -> Self {
         let &EditRecord { edit, cells, nanos } = record;
         let text = |row: &[bool]| row.iter().map(|&blocked| if blocked { '#' } else { '.' }).collect();
+        let row = |row: &[(Vertex, Option<f64>)]| row.iter().map(|(_, cost)| *cost).collect();
+        let costs = edit.costs.as_ref();
+        let width = edit.cells.rectangle().width.max(1) as usize;
         Self {
             x: edit.cells.x,
             y: edit.cells.y,
-            rows: edit.cells.patch.rows().map(text).collect(),
+            rows: costs.is_none().then(|| edit.cells.patch.rows().map(text).collect()),
+            costs: costs.map(|costs| costs.chunks(width).map(row).collect()),
             cells,
             nanos,
             more: edit.more,

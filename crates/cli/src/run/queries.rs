@@ -69,7 +69,7 @@ impl Queries {
             return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
         }
         if let Some(path) = &args.edits {
-            let timeline = Timeline::read(path, &map.ground)?.take(every, limit);
+            let timeline = Timeline::read(path, map)?.take(every, limit);
             return Ok(Self::Timeline { name: file_name(&shown(path)), timeline });
         }
         let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {

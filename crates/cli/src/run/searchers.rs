@@ -116,8 +116,11 @@ impl Searcher {
             change = Change::to(&self.space, disc.map());
             self.map.disc = Some(disc);
         } else {
-            for Edit { cells, .. } in edits {
-                change = change.edit(cells.rectangle(), |x, y| cells.is_blocked(x, y))?;
+            for Edit { cells, costs, .. } in edits {
+                change = match costs {
+                    Some(costs) => change.edit_costs(costs.iter().copied())?,
+                    None => change.edit(cells.rectangle(), |x, y| cells.is_blocked(x, y))?,
+                };
             }
         }
         let index = self.index.repair(&change)?;
@@ -127,6 +130,7 @@ impl Searcher {
         let grid = self.space.map().grid();
         let ground = self.map.disc.as_ref().map_or(grid, |disc| disc.obstacles().grid());
         self.map.take_edited(&ground.clone(), grid);
+        self.map.costs = self.space.costs().cloned();
         // An edit takes the memory of a version that nobody holds any more.
         drop(change);
         let time = begin.elapsed();

@@ -73,7 +73,7 @@ impl Session<'_> {
         change: &[Edit],
         tally: &mut Tally,
     ) -> Result<(), Failure> {
-        let altered = altered(change, &searchers.first().map.ground);
+        let altered = altered(change, &searchers.first().map);
         let is_there_already = change.iter().any(|edit| edit.initial);
         let nanos = if is_there_already { 0 } else { searchers.follow(change)?.as_nanos() as u64 };
         if !is_there_already {

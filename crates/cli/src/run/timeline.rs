@@ -1,16 +1,17 @@
 //! Timelines: queries on a map that changes, and the edits between them.
 
-use std::{path::Path, sync::Arc};
+use std::{collections::HashMap, path::Path, sync::Arc};
 
-use mediant::{Ends, grid::Grid};
+use mediant::{Costs, Ends, Vertex, grid::Grid};
 use mediant_formats::{DynamicEvent, DynamicScenario, Optimal, Patch, PlacedPatch};
 use serde::{Deserialize, de::IgnoredAny};
 
 use super::queries::{Item, NO_PATH};
 use crate::{
     check::file::{bytes, lines, shown},
-    edit::{EditLine, check_place, json_problem},
+    edit::{CellCosts, EditLine, LastCosts, check_place, json_problem},
     failure::Failure,
+    map::NamedMap,
 };
 
 /// An edit of the map.
@@ -19,6 +20,8 @@ pub(crate) struct Edit {
     pub(crate) cells: PlacedPatch,
     /// The number of queries before it, of those that are taken.
     pub(crate) after: usize,
+    /// The costs of the cells after it, on a map of costs.
+    pub(crate) costs: Option<CellCosts>,
     /// Whether the next edit belongs to the same change.
     pub(crate) more: bool,
     /// Whether it makes the map that the run begins with out of one without obstacles.
@@ -44,15 +47,18 @@ enum Line {
 
 impl Timeline {
     /// Reads the JSON lines of a file for a map; `-` is stdin.
-    pub(crate) fn read(path: &Path, map: &Grid) -> Result<Self, Failure> {
+    pub(crate) fn read(path: &Path, map: &NamedMap) -> Result<Self, Failure> {
         let bytes = bytes(path)?;
+        let mut last = LastCosts::new(map.costs.as_ref());
         let mut timeline = Self::default();
         for (line, text) in lines(&bytes) {
             let wrong = |problem: String| Failure::PathFile { path: shown(path), line, problem };
             match serde_json::from_slice(text) {
                 Ok(Line::Edit(edit)) => {
-                    let cells = edit.cells().and_then(|cells| check_place(&cells, map).map(|()| cells));
-                    timeline.edit(cells.map_err(wrong)?, edit.more);
+                    let cells = edit.cells().map_err(wrong)?;
+                    check_place(&cells.patch, &map.ground).map_err(wrong)?;
+                    let costs = last.after(&cells).map_err(wrong)?;
+                    timeline.edit(cells.patch, costs, edit.more);
                 }
                 Ok(Line::Query { start, goal }) => timeline.query(Ends::new(start, goal), None),
                 Ok(Line::Run(_) | Line::Summary(_)) => {}
@@ -71,11 +77,17 @@ impl Timeline {
         let (width, height) = (map.width(), map.height());
         let rows = (0..height).flat_map(|y| (0..width).map(move |x| map.is_blocked(x as i32, y as i32)));
         let patch = Arc::new(Patch::new(width, rows));
-        let initial = Edit { cells: PlacedPatch { patch, x: 0, y: 0 }, after: 0, more: false, initial: true };
+        let initial = Edit {
+            cells: PlacedPatch { patch, x: 0, y: 0 },
+            after: 0,
+            costs: None,
+            more: false,
+            initial: true,
+        };
         let mut timeline = Self { edits: vec![initial], ..Self::default() };
         for event in scenario.events() {
             match event {
-                DynamicEvent::Patch(cells) => timeline.edit(cells.clone(), true),
+                DynamicEvent::Patch(cells) => timeline.edit(cells.clone(), None, true),
                 DynamicEvent::Query(query) => {
                     let reference = match query.optimal {
                         Optimal::Unknown => None,
@@ -90,8 +102,8 @@ impl Timeline {
         timeline
     }
 
-    fn edit(&mut self, cells: PlacedPatch, more: bool) {
-        self.edits.push(Edit { cells, after: self.queries.len(), more, initial: false });
+    fn edit(&mut self, cells: PlacedPatch, costs: Option<CellCosts>, more: bool) {
+        self.edits.push(Edit { cells, after: self.queries.len(), costs, more, initial: false });
     }
 
     fn query(&mut self, ends: Ends, reference: Option<f64>) {
@@ -127,7 +139,24 @@ impl Timeline {
 }
 
 /// The number of cells that each edit of a change alters, on the map before the change.
-pub(crate) fn altered(change: &[Edit], map: &Grid) -> Vec<u64> {
+pub(crate) fn altered(change: &[Edit], map: &NamedMap) -> Vec<u64> {
+    match &map.costs {
+        Some(costs) => altered_costs(change, costs),
+        None => altered_cells(change, &map.ground),
+    }
+}
+
+/// [`altered`], by the costs of cells.
+fn altered_costs(change: &[Edit], costs: &Costs) -> Vec<u64> {
+    let mut now = HashMap::new();
+    let mut is_altered = |&&(at, cost): &&(Vertex, Option<f64>)| {
+        now.insert(at, cost).unwrap_or_else(|| costs.cost(at)) != cost
+    };
+    change.iter().map(|edit| edit.costs.iter().flatten().filter(&mut is_altered).count() as u64).collect()
+}
+
+/// [`altered`], by the cells that are blocked.
+fn altered_cells(change: &[Edit], map: &Grid) -> Vec<u64> {
     let altered = |(number, edit): (usize, &Edit)| {
         let at = edit.cells.rectangle();
         let meets = |other: &PlacedPatch| {

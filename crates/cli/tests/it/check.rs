@@ -279,6 +279,8 @@ fn the_examples_of_the_help_run() {
     paths(&files, "arena.jsonl", &format!("{arena} --from 1,11 --to 40,30"));
     files.add("arena.csv", "x,y\n1,11\n20,30\n40,30\n");
     files.add("depot.csv", "x,y\n0.5,0.5\n1.5,0.8\n");
-    run_examples(&files, "check", 4);
+    paths(&files, "friction.jsonl", &format!("{} --from 1,11 --to 40,30", files.path("friction.tif")));
+    paths(&files, "walk.jsonl", &format!("{} --elevation --from 1,11 --to 40,30", files.path("dem.tif")));
+    run_examples(&files, "check", 6);
     assert!(fs::exists(files.path("arena.csv")).expect("a folder"));
 }

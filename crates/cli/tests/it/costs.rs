@@ -231,6 +231,12 @@ fn what_does_not_go_with_costs_is_said() {
         &format!("reach {small} --from 0,0 --free W"),
         "the map small.asc has no characters for tiles: leave --free out, or give a MovingAI map",
     );
+    for options in ["--to 4,0 --unblock 2,1", "--to 2,1 --free-ends"] {
+        let ran = run(&format!("run {arguments} --from 0,0 {options}"));
+        let said = "error: cell (2, 1) is blocked and has no cost, so that it cannot be freed: leave --unblock and \
+                    --free-ends out, or give it a cost in the raster\n";
+        assert_eq!((ran.status, ran.stderr.as_str()), (Some(2), said), "{options}");
+    }
     let missing = run(&format!("reach {map} --from 0,0 --costs no.tif"));
     assert!(missing.status == Some(2) && missing.stderr.contains("no.tif"), "{}", missing.stderr);
 }

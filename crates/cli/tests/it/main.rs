@@ -4,6 +4,7 @@ mod any_angle;
 mod auto;
 mod calls;
 mod changing;
+mod changing_costs;
 mod check;
 mod common;
 mod convert;

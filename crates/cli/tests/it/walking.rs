@@ -126,6 +126,13 @@ fn what_does_not_go_with_elevation_is_said() {
             "{dem}: 4 columns and 3 rows of numbers, and the map has 72 and 36: give one number for each cell"
         ),
     );
+    for option in ["--block 1,1", "--unblock 1,1", "--free-ends"] {
+        let name = option.split(' ').next().expect("a name");
+        check(
+            &format!("run {dem} --from 0,0 --to 1,1 {option} --elevation"),
+            &format!("{name} does not go with --elevation: leave one of the two out"),
+        );
+    }
     for (line, part) in [
         (format!("reach {dem} --from 0,0 --placement corner --elevation"), "choose centers, not corners"),
         (format!("reach {dem} --from 0,0 --k 9 --elevation"), "choose a k from 2 to 8"),

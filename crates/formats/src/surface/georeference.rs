@@ -5,9 +5,9 @@ use super::SurfaceError;
 /// Where a raster is in the world: what its file says of it, kept for the file that is written.
 ///
 /// Of a GeoTIFF these are its GeoKeys, its tie points, scale and transformation, and GDAL's metadata, byte by
-/// byte; of an ESRI ASCII grid its lower left cell and the size of a cell, and of the `.prj` beside it whether
-/// the coordinates are degrees. Each is written in the form of the other, too, but an ESRI ASCII grid says
-/// nothing of the coordinate system.
+/// byte; of an ESRI ASCII grid its lower left cell and the size of a cell, and of the `.prj` beside it
+/// whether the coordinates are degrees. Each is written in the form of the other, too, but an ESRI ASCII grid
+/// says nothing of the coordinate system.
 ///
 /// ```
 /// use mediant_formats::{Surface, SurfaceOptions};
@@ -95,8 +95,9 @@ impl Georeference {
     }
 
     /// Whether the coordinates are longitudes and latitudes: the GeoKey `GTModelTypeGeoKey` is 2,
-    /// 'geographic', or the `.prj` beside an ESRI ASCII grid has such a system (`GEOGCS`). Then a cell is narrower the nearer it is to a pole, and lengths in the unit of its size
-    /// are no lengths on the ground. Project the raster first (`gdalwarp -t_srs …`), or weigh each row by
+    /// 'geographic', or the `.prj` beside an ESRI ASCII grid has such a system (`GEOGCS`). Then a cell is
+    /// narrower the nearer it is to a pole, and lengths in the unit of its size are no lengths on the ground.
+    /// Project the raster first (`gdalwarp -t_srs …`), or weigh each row by
     /// [`Surface::cell_meters`](super::Surface::cell_meters).
     ///
     /// Other files do not say it, nor does an ESRI ASCII grid that is no file.
