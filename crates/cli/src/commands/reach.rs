@@ -216,7 +216,7 @@ fn corridor_summary(
     let unit = if map.walking.is_some() { " s" } else { "" };
     writeln!(
         screen,
-        "{name} · {motion} · {vertices} on ways from {from} to {to}, at least {least:.4}{unit} in all"
+        "{name} · {motion} · {vertices} on ways from {from} to {to}, the best {least:.4}{unit}"
     )
 }
 

@@ -161,7 +161,7 @@ fn what_is_wrong_with_an_edit_of_costs_is_said() {
     let said = refused(&files, &format!("run builtin:cave --edits {file}"));
     assert_eq!(
         said,
-        "error: t.jsonl: line 1: the edit has \"costs\", and the map has none: write \"rows\"\n"
+        "error: t.jsonl: line 1: the edit has \"costs\", and the map has none: give it costs, or write \"rows\"\n"
     );
     // A cell that was given a cost has one from then on.
     let query = "{\"type\":\"query\",\"start\":[3,0],\"goal\":[4,0]}\n";

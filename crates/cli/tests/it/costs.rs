@@ -370,7 +370,7 @@ fn a_corridor_is_the_least_cost_over_each_cell() {
         assert_eq!(near.len(), corridor.iter().filter(|(_, cost)| *cost <= least + 1.0).count(), "{motion}");
         let said = succeeds(&format!("reach {arguments} {motion} --from 0,0 --from 0,2 --to 4,0 --corridor"));
         assert!(
-            said.contains(&format!("on ways from 2 sources to (4, 0), at least {least:.4} in all")),
+            said.contains(&format!("on ways from 2 sources to (4, 0), the best {least:.4}")),
             "{said}"
         );
     }
