@@ -348,7 +348,7 @@ fn number(csv: &str) -> Vec<(String, f64)> {
 
 #[test]
 fn a_corridor_is_the_least_cost_over_each_cell() {
-    let (files, arguments) = files();
+    let (_files, arguments) = files();
     for motion in ["--k 2", "--k 4", "--k 5 --placement corner"] {
         let reach = format!("reach {arguments} {motion} -o -");
         let [from, to] =
