@@ -120,7 +120,10 @@ impl LastCosts {
     pub(crate) fn after(&mut self, edit: &EditCells) -> Result<Option<CellCosts>, String> {
         let Some(read) = &self.read else {
             return match edit.costs {
-                Some(_) => Err("the edit has \"costs\", and the map has none: give it costs, or write \"rows\"".to_owned()),
+                Some(_) => {
+                    Err("the edit has \"costs\", and the map has none: give it costs, or write \"rows\""
+                        .to_owned())
+                }
                 None => Ok(None),
             };
         };

@@ -188,7 +188,7 @@ fn in_words(error: &mediant::Error) -> String {
 fn cure(error: &mediant::Error) -> &'static str {
     match error {
         mediant::Error::Costs(CostsError::Cost { .. }) => {
-            ": in a raster it has no data (NaN in NPY); for heights mediant reach, run and table have --elevation"
+            ": in a raster it has no data (NaN in NPY, or --no-data VALUE); for heights there is --elevation"
         }
         _ => "",
     }

@@ -84,7 +84,7 @@ costs. The array has a row for each row of vertices, and is infinite where nothi
 A picture shows the map that was read, also for an \
 agent with a radius.
 
-Exit status: 0, 1 if a source is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
+Exit status: 0, 1 if a source or goal is blocked or outside the map, 2 for bad arguments, or a file that cannot be \
 read or written.
 
 With --costs, or where the map itself is a raster of numbers (NPY, ESRI ASCII grid, GeoTIFF), cells have \

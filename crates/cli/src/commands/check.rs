@@ -55,6 +55,9 @@ struct SummaryLine<'a> {
     broken: u64,
 }
 
+/// The largest k that is searched on costs.
+const MAX_K_ON_COSTS: u32 = 8;
+
 /// The rules by which a path is checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Rules {
@@ -80,9 +83,11 @@ impl Rules {
     fn space(self, args: &CheckArgs, map: NamedMap) -> Result<Space, Failure> {
         let map = map.for_agent(&args.map, self.motion)?;
         let Motion { k, rules, .. } = self.motion;
-        // Between centers and on costs no engine searches at any angle. For sight, every k is as good.
-        let is_corner = rules.placement() == PlacementKind::Corner && !map.has_costs();
-        let is_searched = k != K::Any || is_corner;
+        // No engine searches others. For sight, and for what a path costs, every k is as good.
+        let is_searched = match k {
+            K::Finite(k) => !map.has_costs() || k.get() <= MAX_K_ON_COSTS,
+            K::Any => rules.placement() == PlacementKind::Corner && !map.has_costs(),
+        };
         let k = if is_searched { k } else { K::N8 };
         Ok(map.space(Motion::new(k, rules))?)
     }

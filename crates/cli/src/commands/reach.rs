@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use mediant::{Error, Field, K, Motion, Vertex};
+use mediant::{Error, Field, K, Motion, Vertex, errors::QueryError, search::End};
 use mediant_formats::{Picture, Surface, SurfaceFormat};
 
 use crate::{
@@ -80,7 +80,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     let limit = args.within.map(|cost| if map.has_costs() { cost } else { map.cells(cost) });
     let space = map.space(motion)?;
     let greatest = limit.unwrap_or(f64::INFINITY);
-    let leads_to = || space.field_within(to.iter().copied(), greatest);
+    let leads_to = || space.field_within(to.iter().copied(), greatest).map_err(of_goals);
     let fields = match args.from.is_empty() {
         true => leads_to().map(|field| (field, None)),
         false => space.field_from_within(from.iter().copied(), greatest).and_then(|field| {
@@ -128,6 +128,16 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
     Ok(Ending::Answered)
 }
 
+/// The error of sources that are goals.
+fn of_goals(error: Error) -> Error {
+    let end = End::Goal;
+    match error {
+        Error::Query(QueryError::Blocked { at, .. }) => QueryError::Blocked { end, at }.into(),
+        Error::Query(QueryError::Outside { at, last, .. }) => QueryError::Outside { end, at, last }.into(),
+        error => error,
+    }
+}
+
 /// The numbers of all vertices that are written, row by row.
 struct Values {
     name: &'static str,
@@ -148,8 +158,10 @@ impl Values {
 
     /// The costs of the best paths over each vertex, up to the greatest.
     fn of_corridor(from: &Field, to: &Field, greatest: f64) -> Result<Self, Error> {
+        // The room that limits of fields leave for rounding.
+        let most = greatest * (1.0 + 1.0 / f64::from(1_u32 << 31));
         let mut rows = from.corridor(to)?;
-        rows.iter_mut().filter(|cost| **cost > greatest).for_each(|cost| *cost = f64::INFINITY);
+        rows.iter_mut().filter(|cost| **cost > most).for_each(|cost| *cost = f64::INFINITY);
         Ok(Self { name: "cost", rows })
     }
 
@@ -214,10 +226,7 @@ fn corridor_summary(
     }
     let vertices = count(known().count() as u64, "vertex", "vertices");
     let unit = if map.walking.is_some() { " s" } else { "" };
-    writeln!(
-        screen,
-        "{name} · {motion} · {vertices} on ways from {from} to {to}, the best {least:.4}{unit}"
-    )
+    writeln!(screen, "{name} · {motion} · {vertices} on ways from {from} to {to}, the best {least:.4}{unit}")
 }
 
 /// Writes how many vertices are reached, and which is the furthest.

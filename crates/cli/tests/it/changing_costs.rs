@@ -216,7 +216,9 @@ fn a_check_measures_paths_on_costs() {
     let file = files.add("way.csv", "x,y\n0,0\n1,0\n");
     let flat = files.add("flat.asc", "ncols 2\nnrows 1\ncellsize 10\n3 5\n");
     // From center to center it is half in each cell, along the border in the first one alone.
-    for (options, cost) in [("", "40.0"), ("--k any", "30.0"), ("--k any --placement center", "40.0")] {
+    for (options, cost) in
+        [("", "40.0"), ("--k 12", "40.0"), ("--k any", "30.0"), ("--k any --placement center", "40.0")]
+    {
         let told = succeeds(format!("check {flat} {file} --format jsonl {options}").trim_end());
         assert!(told.contains(&format!("\"holds\":true,\"cost\":{cost}}}")), "{options}: {told}");
     }

@@ -212,8 +212,8 @@ fn what_does_not_go_with_costs_is_said() {
         &format!("reach {map} --from 0,0 --costs {wrong}"),
         &format!(
             "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number; a cell that cannot be entered \
-             is marked as blocked, not by its cost: in a raster it has no data (NaN in NPY); for heights mediant \
-             reach, run and table have --elevation"
+             is marked as blocked, not by its cost: in a raster it has no data (NaN in NPY, or \
+             --no-data VALUE); for heights there is --elevation"
         ),
     );
     check(
@@ -369,10 +369,7 @@ fn a_corridor_is_the_least_cost_over_each_cell() {
         assert!(near.iter().all(|(_, cost)| *cost <= least + 1.0) && !near.is_empty(), "{motion}");
         assert_eq!(near.len(), corridor.iter().filter(|(_, cost)| *cost <= least + 1.0).count(), "{motion}");
         let said = succeeds(&format!("reach {arguments} {motion} --from 0,0 --from 0,2 --to 4,0 --corridor"));
-        assert!(
-            said.contains(&format!("on ways from 2 sources to (4, 0), the best {least:.4}")),
-            "{said}"
-        );
+        assert!(said.contains(&format!("on ways from 2 sources to (4, 0), the best {least:.4}")), "{said}");
     }
 }
 
@@ -422,5 +419,5 @@ fn a_corridor_is_of_lengths_or_of_times() {
         assert!(ran.status == Some(2) && ran.stderr.contains(part), "{options}: {}", ran.stderr);
     }
     let ran = run(&format!("reach {arguments} --from 0,0 --to 2,1 --corridor"));
-    assert!(ran.status == Some(1) && ran.stderr.contains("(2, 1) is blocked"), "{}", ran.stderr);
+    assert!(ran.status == Some(1) && ran.stderr.contains("the goal (2, 1) is blocked"), "{}", ran.stderr);
 }
