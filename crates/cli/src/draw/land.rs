@@ -31,6 +31,11 @@ impl<'m> Land<'m> {
         Some(Self { least, greatest, ..land })
     }
 
+    /// Whether lines of equal numbers mean something: those of elevations do.
+    pub(super) const fn has_contours(&self) -> bool {
+        self.walking.is_some()
+    }
+
     /// The number of a cell; `None` for a blocked one.
     fn number(&self, x: i32, y: i32) -> Option<f64> {
         let elevation = || self.walking.and_then(|walking| walking.elevation((x, y)));

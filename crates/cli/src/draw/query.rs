@@ -54,7 +54,10 @@ impl Drawing<'_> {
         let placement = self.setup.rules().placement();
         let mut picture = Picture::new(&self.map.ground, placement);
         picture = match Land::of(self.map) {
-            Some(land) => picture.field(|at| land.at(placement, at)).caption(land.caption),
+            Some(land) => {
+                picture = picture.field(|at| land.at(placement, at)).caption(land.caption);
+                if land.has_contours() { picture } else { picture.without_contours() }
+            }
             None => {
                 let mut searched = Searched::default();
                 // An error of the query was printed already.
