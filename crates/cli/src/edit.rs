@@ -104,14 +104,14 @@ fn check_length(number: usize, found: usize, width: usize) -> Result<(), String>
 
 /// The costs that cells had last, by which an edit frees them.
 pub(crate) struct LastCosts {
-    /// Those that were read; `None` on a map without costs.
+    /// The costs that were read; `None` on a map without costs.
     read: Option<Costs>,
-    /// Those of edits.
+    /// The costs of edits.
     given: HashMap<Vertex, f64>,
 }
 
 impl LastCosts {
-    /// Those of a map as it was read.
+    /// The costs of a map as it was read.
     pub(crate) fn new(costs: Option<&Costs>) -> Self {
         Self { read: costs.cloned(), given: HashMap::new() }
     }

@@ -290,7 +290,7 @@ fn bands_and_numbers_for_no_data_are_honored() {
     let costs = files.path("costs.asc");
     check(
         &format!("reach {arguments} --from 0,0 --band 2"),
-        &format!("{costs}: expected band 1, which is the only one, found 2; leave `band` out"),
+        &format!("{costs}: expected band 1, which is the only one, found 2; name no band"),
     );
     // It counts more than what the file says.
     let ran = run(&format!("reach {arguments} --from 0,0 --k 2 --no-data 4"));

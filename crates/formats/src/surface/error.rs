@@ -193,7 +193,7 @@ pub enum SurfaceError {
 /// The expected band, in words, and the cure.
 fn of_bands(bands: u16, found: Option<u16>) -> String {
     match found {
-        Some(band) if bands == 1 => format!("band 1, which is the only one, found {band}; leave `band` out"),
+        Some(band) if bands == 1 => format!("band 1, which is the only one, found {band}; name no band"),
         _ => format!(
             "one band, found {bands}; choose one of 1 to {bands} by `band`{}",
             found.map(|band| format!(" (not {band})")).unwrap_or_default()

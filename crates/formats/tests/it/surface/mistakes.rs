@@ -248,7 +248,7 @@ fn bands() {
         let second = SurfaceOptions { band: Some(2), ..SurfaceOptions::default() };
         assert_eq!(
             Surface::parse(&bytes, &second).unwrap_err().to_string(),
-            "expected band 1, which is the only one, found 2; leave `band` out",
+            "expected band 1, which is the only one, found 2; name no band",
             "{name}"
         );
     }
