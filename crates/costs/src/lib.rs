@@ -21,6 +21,11 @@
 //! not depend on the order of work, nor on the platform; and where all cells cost 1 they are those of
 //! `mediant-search`, to the last bit. The unit follows the map (module `scale`).
 //!
+//! **What takes long** takes an [`Interrupt`](mediant_grid::Interrupt), which stops it. Fields and landmarks
+//! tell their [progress](mediant_grid::Interrupt::progress) to its listener: a field how many vertices have
+//! their cost, at most some hundred times, on the thread that called it. Nobody needs to listen, and then
+//! nothing is counted. The memory of a field is known before it is made ([`CostField::bytes`]).
+//!
 //! The promise is the least cost over N(k) on the raster. No bound against all paths is known.
 //!
 //! Not here: the engines for maps on which all cells cost the same, which are many times as fast there, and

@@ -17,6 +17,9 @@ use std::{
 /// it has made and returns [`Interrupted`]; nothing goes on on other threads. Unused, an interrupt costs a
 /// test of two pointers a row.
 ///
+/// **Progress** goes the other way along with it: some work tells its [listener](Self::progress), if there is
+/// one, how far it is.
+///
 /// ```
 /// use std::sync::{Arc, atomic::{AtomicBool, Ordering}};
 /// use mediant_grid::{Clearance, Fit, Grid, Interrupt, Outside, StoppedBy};
@@ -35,6 +38,7 @@ use std::{
 pub struct Interrupt {
     cancel: Option<Arc<AtomicBool>>,
     deadline: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
+    listener: Option<Arc<dyn Fn(usize, usize) + Send + Sync>>,
 }
 
 /// The flag or the deadline.
@@ -72,7 +76,7 @@ impl Interrupt {
     /// An interrupt that stops nothing yet.
     #[must_use]
     pub const fn new() -> Self {
-        Self { cancel: None, deadline: None }
+        Self { cancel: None, deadline: None, listener: None }
     }
 
     /// A flag by which another thread stops the work.
@@ -86,6 +90,33 @@ impl Interrupt {
     #[must_use]
     pub fn deadline(self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         Self { deadline: Some(Arc::new(is_over)), ..self }
+    }
+
+    /// A function that is told how far the work is: how much of it is done, and how much there is at most.
+    /// Work that tells its progress says so, and whether it is done with less than all. It is told at most
+    /// some hundred times, first with 0, then never less than before.
+    #[must_use]
+    pub fn progress(self, listener: impl Fn(usize, usize) + Send + Sync + 'static) -> Self {
+        Self { listener: Some(Arc::new(listener)), ..self }
+    }
+
+    /// The same flag and deadline without the listener: for a part of the work.
+    #[must_use]
+    pub fn unheard(&self) -> Self {
+        Self { listener: None, ..self.clone() }
+    }
+
+    /// Whether somebody is told how far the work is.
+    #[must_use]
+    pub const fn is_heard(&self) -> bool {
+        self.listener.is_some()
+    }
+
+    /// Tells how much is done of how much, if somebody listens.
+    pub fn tell(&self, done: usize, total: usize) {
+        if let Some(listener) = &self.listener {
+            listener(done, total);
+        }
     }
 
     /// Whether nothing can stop the work.
@@ -142,7 +173,8 @@ impl Interrupt {
 impl fmt::Debug for Interrupt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut fields = f.debug_struct("Interrupt");
-        fields.field("cancel", &self.cancel).field("deadline", &self.deadline.is_some()).finish()
+        fields.field("cancel", &self.cancel).field("deadline", &self.deadline.is_some());
+        fields.field("listener", &self.listener.is_some()).finish()
     }
 }
 

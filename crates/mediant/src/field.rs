@@ -61,6 +61,8 @@ enum Inner {
 /// Makes one field after another in a space, on scratch memory of its own: make one for each thread.
 pub struct Fields {
     inner: Makers,
+    /// What stops all of its fields.
+    interrupt: Interrupt,
 }
 
 enum Makers {
@@ -110,20 +112,24 @@ impl Space {
         limit: f64,
         interrupt: &Interrupt,
     ) -> Result<Field, Error> {
-        self.fields_of(interrupt)?.make(FieldQuery::new(sources).within(limit), interrupt)
+        self.fields_of(interrupt)?.make(FieldQuery::new(sources).within(limit))
     }
 
-    fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
+    pub(crate) fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
+        Ok(Fields { inner: self.makers(interrupt)?, interrupt: interrupt.clone() })
+    }
+
+    fn makers(&self, interrupt: &Interrupt) -> Result<Makers, Error> {
         #[cfg(feature = "costs")]
         if let Some(surface) = self.surface() {
-            return Ok(Fields { inner: Makers::Costs(Arc::clone(&surface.graph), NonZeroUsize::MIN) });
+            return Ok(Makers::Costs(Arc::clone(&surface.graph), NonZeroUsize::MIN));
         }
         #[cfg(feature = "walking")]
         if let Some(walk) = self.walk() {
-            return Ok(Fields { inner: Makers::Walking(Arc::clone(&walk.graph)) });
+            return Ok(Makers::Walking(Arc::clone(&walk.graph)));
         }
         self.map().check_sides("a field without costs")?;
-        let inner = match (self.placed(), self.motion().k.finite()) {
+        Ok(match (self.placed(), self.motion().k.finite()) {
             (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), Some(k)) => Makers::Corners(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), None) => {
@@ -132,8 +138,7 @@ impl Space {
             (Placed::Centers(_), None) => {
                 return Err(SetupError::Motion { motion: self.motion() }.into());
             }
-        };
-        Ok(Fields { inner })
+        })
     }
 }
 
@@ -156,7 +161,7 @@ impl Fields {
     pub fn on_threads(self, threads: NonZeroUsize) -> Self {
         #[cfg(feature = "costs")]
         if let Makers::Costs(graph, _) = self.inner {
-            return Self { inner: Makers::Costs(graph, threads) };
+            return Self { inner: Makers::Costs(graph, threads), ..self };
         }
         let _ = threads;
         self
@@ -169,7 +174,7 @@ impl Fields {
     /// before a field of costs is made for which there is no room.
     pub fn field<V: Into<Vertex>>(&mut self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
         let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources), &NEVER)
+        self.make(FieldQuery::new(&sources))
     }
 
     /// The distances of those vertices whose distance to the nearest source is at most `limit` cells.
@@ -183,10 +188,11 @@ impl Fields {
         limit: f64,
     ) -> Result<Field, Error> {
         let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources).within(limit), &NEVER)
+        self.make(FieldQuery::new(&sources).within(limit))
     }
 
-    fn make(&mut self, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
+    fn make(&mut self, query: FieldQuery<'_>) -> Result<Field, Error> {
+        let interrupt = &self.interrupt;
         let inner = match &mut self.inner {
             Makers::Centers(fields) => fields.field_interruptible(query, interrupt).map(Inner::Centers),
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
@@ -304,7 +310,7 @@ impl Field {
                 let kept = cells.map(|change| field.repaired(Arc::clone(&layers.free), change));
                 match kept.transpose().map_err(told)?.flatten() {
                     Some(field) => Inner::AnyAngle(field),
-                    None => return after.fields_of(interrupt)?.make(field.query(), interrupt),
+                    None => return after.fields_of(interrupt)?.make(field.query()),
                 }
             }
             // Placement and k are those of the identity.

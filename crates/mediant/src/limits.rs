@@ -76,7 +76,35 @@ impl Limits {
         self
     }
 
-    /// The time, the deadline and the flag, as the typed crates ask them. Begins the time.
+    /// A function that is told how far the work is: how much of it is done, and how much there is at most, at
+    /// first and at the end and at most some hundred times between. It limits nothing. Told are calls within
+    /// these limits alone, and of them
+    ///
+    /// - fields where cells have costs, or a walk leads over elevation: the vertices that have their cost, of
+    ///   those that are not blocked (at corners of all). Others are never reached, or cost more than the
+    ///   field's limit. So it need not end with all of them.
+    /// - indexes of [`Engine::Landmarks`](crate::Engine::Landmarks): the landmarks.
+    ///   [`Space::prepare_with_progress`](crate::Space::prepare_with_progress) is for indexes of subgoals.
+    ///
+    /// ```
+    /// use std::sync::{Arc, Mutex};
+    /// use mediant::{Limits, Map, Motion};
+    ///
+    /// let told = Arc::new(Mutex::new(Vec::new()));
+    /// let listens = Arc::clone(&told);
+    /// let limits = Limits::new().progress(move |done, total| listens.lock().unwrap().push((done, total)));
+    /// let space = Map::new(3, 2)?.costs([1, 2, 3, 4, 5, 6])?.space(Motion::centers(3))?;
+    /// let field = space.within(&limits).field([(0, 0)])?;
+    /// assert_eq!(*told.lock().unwrap(), [(0, 6), (6, 6)]);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    #[must_use]
+    pub fn progress(mut self, listener: impl Fn(usize, usize) + Send + Sync + 'static) -> Self {
+        self.limits = self.limits.progress(listener);
+        self
+    }
+
+    /// The time, the deadline, the flag and the listener, as the typed crates ask them. Begins the time.
     #[must_use]
     pub fn interrupt(&self) -> Interrupt {
         SearchLimits::from(self).interrupt().clone()

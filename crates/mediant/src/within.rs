@@ -10,9 +10,20 @@ use mediant_subgoal::Progress;
 #[cfg(feature = "costs")]
 use crate::costs::Costs;
 use crate::{
-    agent::WidestPath, change::Change, configured::ConfiguredEngine, engine::Engine, engines::Source,
-    error::Error, field::Field, goals::Goals, index::Index, map::Map, motion::Motion, planner::Planner,
-    space::Space, table::Table,
+    agent::WidestPath,
+    change::Change,
+    configured::ConfiguredEngine,
+    engine::Engine,
+    engines::Source,
+    error::Error,
+    field::{Field, Fields},
+    goals::Goals,
+    index::Index,
+    map::Map,
+    motion::Motion,
+    planner::Planner,
+    space::Space,
+    table::Table,
 };
 
 /// A map, space, index or field whose work stops at a deadline or by a flag: each call that can take long is
@@ -241,6 +252,26 @@ impl Within<'_, Space> {
     /// As for [`Space::path`], and [`Error::Stopped`].
     pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
         self.of.path_of(Ends::new(start, goal), &self.limits)
+    }
+
+    /// [`Space::fields`]: these limits stop each of the fields, too, and the time begins here. The only way
+    /// to stop a field of costs on several threads, and to [hear](Limits::progress) how far it is:
+    ///
+    /// ```
+    /// use std::num::NonZeroUsize;
+    /// use mediant::{ErrorCode, Limits, Map, Motion};
+    ///
+    /// let space = Map::new(3, 1)?.costs([1, 2, 3])?.space(Motion::centers(3))?;
+    /// let late = space.within(Limits::new().deadline(|| true)).fields()?;
+    /// let stopped = late.on_threads(NonZeroUsize::MIN.saturating_add(1)).field([(0, 0)]).unwrap_err();
+    /// assert_eq!(stopped.code(), ErrorCode::Stopped);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Space::fields`], and [`Error::Stopped`].
+    pub fn fields(&self) -> Result<Fields, Error> {
+        self.of.fields_of(self.limits.interrupt())
     }
 
     /// [`Space::field`].

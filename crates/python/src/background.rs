@@ -3,7 +3,7 @@
 use std::{
     sync::{
         Arc, Mutex, PoisonError,
-        atomic::{AtomicBool, Ordering},
+        atomic::{AtomicBool, AtomicUsize, Ordering},
         mpsc::{self, RecvTimeoutError},
     },
     thread::{self, JoinHandle},
@@ -102,6 +102,29 @@ pub(crate) fn with_flag<T: Send + 'static>(
                 Ok(()) => return Err(crate::errors::exception("MediantError", "the work was lost", "other")),
             },
         }
+    }
+}
+
+/// How far some work is: how much is done, and of how much.
+#[derive(Clone, Default)]
+pub(crate) struct Heard(Arc<[AtomicUsize; 2]>);
+
+impl Heard {
+    /// Limits whose work tells it.
+    pub(crate) fn hear(&self, limits: &Limits) -> Limits {
+        let heard = self.clone();
+        limits.clone().progress(move |done, total| {
+            let [of_done, of_total] = &*heard.0;
+            of_done.store(done, Ordering::Relaxed);
+            of_total.store(total, Ordering::Relaxed);
+        })
+    }
+
+    /// Calls a function with both, if the work has told them.
+    pub(crate) fn tell(&self, progress: &Bound<'_, PyAny>) -> PyResult<()> {
+        let [done, total] = &*self.0;
+        let (done, total) = (done.load(Ordering::Relaxed), total.load(Ordering::Relaxed));
+        if total > 0 { progress.call1((done, total)).map(drop) } else { Ok(()) }
     }
 }
 

@@ -141,6 +141,22 @@ def test_fields_of_several_sources(rng):
         field.corridor(distances)
 
 
+def test_progress_of_fields(rng):
+    """A field of costs tells how many cells have their cost; what the callback raises ends it."""
+    costs = rng.integers(1, 90, size=(900, 1100))
+    grid, told = mediant.Grid.from_costs(np.where(costs > 80, -1, costs), nodata=-1), []
+    source = tuple(np.argwhere(costs <= 80)[0])
+    field = grid.field(source, progress=lambda done, total: told.append((done, total)))
+    assert np.array_equal(field.distances(), grid.distances(source))
+    known = np.isfinite(field.distances()).sum()
+    assert told == sorted(told) and told[-1] == (known, (costs <= 80).sum())
+    with pytest.raises(ZeroDivisionError):
+        grid.distances(source, progress=lambda done, total: 1 // 0)
+    with pytest.raises(TypeError, match="progress"):
+        grid.field(source, progress=3)
+    assert mediant.Grid(costs > 80).field(source, progress=lambda *_: 1 // 0).get(source) == 0
+
+
 def test_wishes_and_limits_count_costs():
     costs = np.ones((3, 9))
     costs[:, 4] = 10

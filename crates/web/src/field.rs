@@ -10,6 +10,7 @@ use crate::{
     answer::{flat, pair},
     arguments::{Points, point, positive, room},
     errors::raised_for,
+    listening::{Listening, tell},
     memory,
     space::Space,
 };
@@ -109,27 +110,35 @@ impl Field {
 #[wasm_bindgen]
 impl Space {
     /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
-    /// at exactly that distance is in the field.
+    /// at exactly that distance is in the field. Where cells have costs, `progress` is called now and then
+    /// with the number of vertices that have their cost, and of all that are not blocked: those that cannot
+    /// be reached, or cost more than the limit, are never done. What it throws ends the call.
     ///
     /// ```js
     /// const field = space.field([0, 0]);
     /// field.get([3, 0]); // 3
     /// ```
     ///
-    /// @throws MediantError `start-blocked`, `start-outside` for a source that is blocked or outside the map.
+    /// @throws MediantError `start-blocked`, `start-outside` for a source that is blocked or outside the map;
+    /// what `progress` throws.
     pub fn field(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Points")] sources: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "number")] limit: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "(done: number, total: number) => void")]
+        progress: &JsValue,
     ) -> Result<Field, JsValue> {
         let sources = Points::read("sources", sources)?;
         self.check_room("the field", memory::FIELD)?;
         let sources = sources.as_slice().iter().copied();
-        let field = if limit.is_undefined() || limit.is_null() {
-            self.inner.field(sources)
-        } else {
-            self.inner.field_within(sources, positive("limit", limit)?)
-        };
+        let none = limit.is_undefined() || limit.is_null();
+        let limit = if none { f64::INFINITY } else { positive("limit", limit)? };
+        let listening = Listening::begin(progress)?;
+        let limits = listening.limits().progress(|done, total| {
+            tell(done, total, |listener, done, total| listener.call2(&JsValue::UNDEFINED, done, total));
+        });
+        let field = self.inner.within(limits).field_within(sources, limit);
+        listening.end()?;
         Ok(Field::new(field.map_err(|error| raised_for("source", error))?))
     }
 }

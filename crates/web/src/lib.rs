@@ -51,6 +51,7 @@ mod goals;
 mod grid;
 mod index;
 mod keywords;
+mod listening;
 mod memory;
 mod module;
 #[cfg(feature = "full")]

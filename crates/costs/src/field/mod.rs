@@ -99,7 +99,25 @@ pub struct CostField {
 }
 
 impl CostField {
-    /// The field of a query.
+    /// The field of a query. It tells its [progress](Interrupt::progress): the vertices that have their cost,
+    /// of all that are not blocked, at corners of all. Those that no path reaches within the limit stay out.
+    ///
+    /// ```
+    /// use std::sync::{Arc, Mutex};
+    /// use mediant_costs::{CostField, CostFieldQuery, CostGraph, CostSurface};
+    /// use mediant_grid::{CornerRule, Interrupt, Rules};
+    /// use mediant_moves::FiniteK;
+    ///
+    /// let map = Arc::new(CostSurface::from_fn(5, 3, |x, _| (x != 3).then_some(2.0))?);
+    /// let graph = Arc::new(CostGraph::new(map, Rules::Center(CornerRule::Never), FiniteK::N8)?);
+    /// let told = Arc::new(Mutex::new(Vec::new()));
+    /// let listens = Arc::clone(&told);
+    /// let interrupt = Interrupt::new().progress(move |done, total| listens.lock().unwrap().push((done, total)));
+    /// CostField::new(graph, CostFieldQuery::new(&[(0, 0).into()]), &interrupt)?;
+    /// // The last column lies behind a wall.
+    /// assert_eq!(*told.lock().unwrap(), [(0, 12), (9, 12)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`CostFieldError::Query`] for the first source that is blocked or outside the map;

@@ -44,7 +44,8 @@ pub(super) fn search(
             .run(unreached(graph, search.interrupt)?, OfCosts::<K, CENTER>::new(graph.scanner(), graph.map()))
     }
     let across = graph.map().layout().tiles_across();
-    let search = Search { sources, limit, with_sources, threads, across, interrupt };
+    let size = graph.size();
+    let search = Search { sources, limit, with_sources, threads, across, size, interrupt };
     by_kind!(graph, [run](graph, search))
 }
 
@@ -60,7 +61,61 @@ pub(crate) struct Search<'s> {
     pub(crate) threads: NonZeroUsize,
     /// The tiles in a row of the map.
     pub(crate) across: usize,
+    /// The numbers of columns and rows of vertices.
+    pub(crate) size: (u32, u32),
     pub(crate) interrupt: &'s Interrupt,
+}
+
+/// The progress of a search: the states that were scanned, of those that are not blocked. In buckets that are
+/// wider than a move some are scanned twice.
+pub(super) struct Progress<'s> {
+    interrupt: &'s Interrupt,
+    scanned: usize,
+    total: usize,
+    /// It is told next when so many are scanned.
+    next: usize,
+}
+
+/// It is told at most so many times between the first and the last.
+const TOLD: usize = 128;
+/// Nor are fewer states scanned between two times.
+const LEAST_TOLD: usize = 1 << 12;
+
+impl<'s> Progress<'s> {
+    /// Nothing is done yet: with the costs before a search.
+    fn of(costs: &[u64], (width, height): (u32, u32), interrupt: &'s Interrupt) -> Self {
+        let mut progress = Self { interrupt, scanned: 0, total: 0, next: 0 };
+        if progress.is_heard() {
+            // At corners the frame is open, too.
+            let open = costs.iter().filter(|&&cost| cost == NONE).count();
+            progress.total = open.min(width as usize * height as usize);
+            progress.tell();
+        }
+        progress
+    }
+
+    /// Whether somebody listens. If not, nothing need be counted.
+    pub(super) const fn is_heard(&self) -> bool {
+        self.interrupt.is_heard()
+    }
+
+    /// So many states more were scanned.
+    pub(super) fn adds(&mut self, scanned: usize) {
+        self.scanned += scanned;
+        if self.scanned >= self.next {
+            self.tell();
+        }
+    }
+
+    fn tell(&mut self) {
+        self.next = self.scanned + (self.total / TOLD).max(LEAST_TOLD);
+        self.interrupt.tell(self.scanned.min(self.total), self.total);
+    }
+
+    /// No more are scanned.
+    pub(super) fn ends(mut self) {
+        self.tell();
+    }
 }
 
 /// The costs before a search. At centers a blocked cell has cost 0, which no path beats.
@@ -84,8 +139,9 @@ impl Search<'_> {
     pub(crate) fn run(self, costs: Vec<u64>, moves: impl Scanning) -> Result<Labels, Interrupted> {
         let Self { limit, with_sources, interrupt, .. } = self;
         let sources = with_sources.then(|| vec![u32::MAX; costs.len()]);
+        let progress = Progress::of(&costs, self.size, interrupt);
         let mut labels = Labels { costs, sources, queue_bytes: 0 };
-        labels.queue_bytes = self.run_together(&mut labels, moves)?;
+        labels.queue_bytes = self.run_together(&mut labels, moves, progress)?;
         if limit != NONE {
             for piece in labels.costs.chunks_mut(1 << 18) {
                 interrupt.check("filling memory")?;
@@ -97,33 +153,53 @@ impl Search<'_> {
 
     /// Returns the memory of the queues, in bytes.
     #[cfg(not(target_family = "wasm"))]
-    fn run_together(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+    fn run_together(
+        self,
+        labels: &mut Labels,
+        moves: impl Scanning,
+        progress: Progress<'_>,
+    ) -> Result<usize, Interrupted> {
         if self.threads.get() > 1 && !self.with_sources {
-            return threads::run(moves, &mut labels.costs, self);
+            return threads::run(moves, &mut labels.costs, progress, self);
         }
-        self.run_alone(labels, moves)
+        self.run_alone(labels, moves, progress)
     }
 
     /// WebAssembly has no threads, and loads what it does not need.
     #[cfg(target_family = "wasm")]
-    fn run_together(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+    fn run_together(
+        self,
+        labels: &mut Labels,
+        moves: impl Scanning,
+        progress: Progress<'_>,
+    ) -> Result<usize, Interrupted> {
         debug_assert!(self.threads.get() > 0);
-        self.run_alone(labels, moves)
+        self.run_alone(labels, moves, progress)
     }
 
     /// Returns the memory of the queue, in bytes.
-    fn run_alone(self, labels: &mut Labels, moves: impl Scanning) -> Result<usize, Interrupted> {
+    fn run_alone(
+        self,
+        labels: &mut Labels,
+        moves: impl Scanning,
+        progress: Progress<'_>,
+    ) -> Result<usize, Interrupted> {
         let (least, greatest) = moves.bounds();
         let mut queue = Buckets::new(least, greatest);
         let costs = Costs { costs: &mut labels.costs, queue: &mut queue };
         match &mut labels.sources {
-            None => self.label(moves, costs)?,
-            Some(numbers) => self.label(moves, Numbered { costs, numbers, from: 0 })?,
+            None => self.label(moves, costs, progress)?,
+            Some(numbers) => self.label(moves, Numbered { costs, numbers, from: 0 }, progress)?,
         }
         Ok(queue.memory_bytes())
     }
 
-    fn label(self, moves: impl Scanning, mut label: impl Label) -> Result<(), Interrupted> {
+    fn label(
+        self,
+        moves: impl Scanning,
+        mut label: impl Label,
+        mut progress: Progress<'_>,
+    ) -> Result<(), Interrupted> {
         for &(state, number) in self.sources {
             label.starts(state, number);
         }
@@ -145,9 +221,14 @@ impl Search<'_> {
                         moves.scan((state, cost), &mut label);
                     }
                 }
+                // Not in that loop, whose registers are all taken.
+                if progress.is_heard() {
+                    progress.adds(piece.iter().filter(|&&state| label.is_in(state, current)).count());
+                }
             }
             states.clear();
         }
+        progress.ends();
         Ok(())
     }
 }
@@ -157,6 +238,12 @@ trait Label: Visit {
     fn queue(&mut self) -> &mut Buckets;
 
     fn cost(&self, state: usize) -> u64;
+
+    /// Whether the cost of a state is in a bucket.
+    fn is_in(&mut self, state: u32, bucket: u64) -> bool {
+        let cost = self.cost(state as usize);
+        self.queue().of(cost) == bucket
+    }
 
     /// The state is scanned next.
     fn scans(&mut self, _state: usize) {}

@@ -26,7 +26,7 @@ use mediant_grid::{Interrupt, Interrupted};
 
 use super::{
     buckets::Buckets,
-    search::{STAGE, Search},
+    search::{Progress, STAGE, Search},
 };
 use crate::{
     layout::TILE,
@@ -56,6 +56,8 @@ struct Shared<'s, M> {
     /// For rounds in turn: the first bucket in which some thread has queued something.
     first: [AtomicU64; 3],
     limit: u64,
+    /// The states that were scanned since it was told, if somebody listens.
+    scanned: AtomicUsize,
     interrupt: &'s Interrupt,
 }
 
@@ -100,6 +102,7 @@ impl Drop for EndsAll<'_> {
 pub(super) fn run<M: Scanning>(
     moves: M,
     costs: &mut Vec<u64>,
+    mut progress: Progress<'_>,
     Search { sources, limit, threads, across, interrupt, .. }: Search<'_>,
 ) -> Result<usize, Interrupted> {
     let threads = threads.get().min(MOST);
@@ -118,12 +121,13 @@ pub(super) fn run<M: Scanning>(
         },
         first: [u64::MAX; 3].map(AtomicU64::new),
         limit,
+        scanned: AtomicUsize::new(0),
         interrupt,
     };
     let results: Vec<Result<usize, Interrupted>> = thread::scope(|scope| {
         let shared = &shared;
         let spawn = |number| {
-            let work = move || work(shared, number, sources);
+            let work = move || work(shared, number, sources, None);
             thread::Builder::new().spawn_scoped(scope, work).ok()
         };
         let others: Vec<_> = (1..threads).map_while(spawn).collect();
@@ -131,25 +135,29 @@ pub(super) fn run<M: Scanning>(
         let owner = |tile: usize| ((tile / across / BLOCK + tile % across / BLOCK) % there) as u8;
         shared.owners.get_or_init(|| (0..shared.costs.len().div_ceil(TILE)).map(owner).collect());
         shared.meeting.threads.store(there, Release);
-        let mine = work(shared, 0, sources);
+        let mine = work(shared, 0, sources, Some(&mut progress));
         let others = others.into_iter().map(|other| match other.join() {
             Ok(result) => result,
             Err(panic) => std::panic::resume_unwind(panic),
         });
         std::iter::once(mine).chain(others.collect::<Vec<_>>()).collect()
     });
+    let queue_bytes = results.into_iter().sum::<Result<usize, _>>()?;
+    progress.adds(shared.scanned.into_inner());
     *costs = shared_costs.into_iter().map(AtomicU64::into_inner).collect();
-    results.into_iter().sum()
+    progress.ends();
+    Ok(queue_bytes)
 }
 
 /// The most threads: their numbers are bytes.
 const MOST: usize = 1 << 8;
 
-/// The work of a thread.
+/// The work of a thread. One of them tells the progress of all.
 fn work<M: Scanning>(
     shared: &Shared<'_, M>,
     number: usize,
     sources: &[(usize, u32)],
+    mut progress: Option<&mut Progress<'_>>,
 ) -> Result<usize, Interrupted> {
     let Shared { costs, messages, meeting, limit, interrupt, .. } = shared;
     let moves = shared.moves;
@@ -195,6 +203,13 @@ fn work<M: Scanning>(
                     moves.scan((state, cost), &mut visit);
                 }
             }
+            if interrupt.is_heard() {
+                let is_done = |&&state: &&u32| visit.queue.of(visit.known(state as usize)) == bucket;
+                shared.scanned.fetch_add(piece.iter().filter(is_done).count(), Relaxed);
+            }
+        }
+        if let Some(progress) = progress.as_mut().filter(|progress| progress.is_heard()) {
+            progress.adds(shared.scanned.swap(0, Relaxed));
         }
         visit.send(&messages[number]);
         if !meeting.wait() {

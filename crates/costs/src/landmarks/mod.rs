@@ -109,15 +109,17 @@ impl Landmarks {
 
     /// Landmarks for a graph: 4, 8 or 16 of them, the first of these that is not less than `count`, in each
     /// component. One after the other is the vertex that is farthest from those before it. It takes as long
-    /// as so many fields and two more.
+    /// as so many fields and two more. Its [progress](Interrupt::progress) is the number of those that are
+    /// made.
     ///
     /// # Errors
     /// [`LandmarksError::Count`]; [`LandmarksError::Interrupted`].
     pub fn new(graph: &Arc<CostGraph>, count: usize, interrupt: &Interrupt) -> Result<Self, LandmarksError> {
         let mut lines = Lines::new(graph.states(), count)?;
         let components = Components::of(graph, interrupt)?;
+        let of_field = interrupt.unheard();
         let field = |sources: &[Vertex]| {
-            CostField::new(Arc::clone(graph), CostFieldQuery::new(sources), interrupt).map_err(|error| {
+            CostField::new(Arc::clone(graph), CostFieldQuery::new(sources), &of_field).map_err(|error| {
                 match error {
                     CostFieldError::Interrupted(interrupted) => LandmarksError::Interrupted(interrupted),
                     // Sources are free, and there is no limit.
@@ -125,6 +127,7 @@ impl Landmarks {
                 }
             })
         };
+        interrupt.tell(0, lines.count());
         // From anywhere to the first landmarks. No two vertices of a component are farther apart than twice
         // the greatest cost.
         let anywhere = field(components.first())?;
@@ -145,6 +148,7 @@ impl Landmarks {
             let mut nearest =
                 |state| lines.row(state)[..=slot].iter().min().map_or(0, |&nearest| u64::from(nearest));
             sources = components.farthest(graph, &mut nearest).0;
+            interrupt.tell(slot + 1, lines.count());
         }
         Ok(Self { identity: graph.identity(), lines: Arc::new(lines), shift: rounding.shift })
     }

@@ -67,7 +67,8 @@ pub struct WalkingField {
 }
 
 impl WalkingField {
-    /// The field of a query.
+    /// The field of a query, which tells its [progress](Interrupt::progress) as a
+    /// [`CostField`](crate::CostField) does.
     ///
     /// # Errors
     /// [`WalkingError::Field`] for the first source that is blocked or outside the map, and for the limit;
@@ -110,6 +111,7 @@ impl WalkingField {
             with_sources: query.allocation,
             threads,
             across: graph.map().layout().tiles_across(),
+            size: graph.size(),
             interrupt,
         };
         let Labels { mut costs, sources: allocation, queue_bytes } = run(&graph, heading, search)?;

@@ -7,6 +7,7 @@ mod field_edits;
 mod fields;
 mod landmarks;
 mod paths;
+mod progress;
 mod refused;
 mod robots;
 mod theta;

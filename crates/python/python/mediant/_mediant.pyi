@@ -283,6 +283,7 @@ class Grid:
         *,
         limit: SupportsFloat | None = None,
         heading: Heading = "to",
+        progress: Callable[[int, int], object] | None = None,
         **motion: Unpack[Motion],
     ) -> Field: ...
     def distances(
@@ -291,6 +292,7 @@ class Grid:
         *,
         limit: SupportsFloat | None = None,
         heading: Heading = "to",
+        progress: Callable[[int, int], object] | None = None,
         **motion: Unpack[Motion],
     ) -> NDArray[np.float64]: ...
     def reach(

@@ -6,7 +6,8 @@ use pyo3::{prelude::*, types::PyDict};
 use super::Grid;
 use crate::{
     arguments::{Points, numpy_function, positive},
-    background::detached,
+    background::{Heard, detached, on_thread},
+    batch::callback,
     errors::raised_for,
     field::{Field, Heading},
     keywords::{Keywords, MOTION},
@@ -25,6 +26,10 @@ impl Grid {
     ///     that distance is in the field: the distance of a vertex, as a limit, reaches that vertex.
     /// heading : {"to", "from"}
     ///     Whether paths lead to the nearest source or from it: over elevation they take different times.
+    /// progress : callable, optional
+    ///     Where cells have costs: called now and then, and at the end, with the number of vertices that have
+    ///     their cost, and of all that are not blocked. Those that cannot be reached, or cost more than the
+    ///     limit, are never done. What it raises ends the call.
     /// **motion
     ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///
@@ -44,8 +49,8 @@ impl Grid {
     /// >>> mediant.Grid.from_rows(["...", "..."]).field((0, 0)).path_from((1, 2)).tolist()
     /// [[1, 2], [0, 1], [0, 0]]
     #[pyo3(
-        signature = (sources, *, limit = None, heading = None, **motion),
-        text_signature = "($self, sources, *, limit=None, heading='to', k=None, neighbors=None, placement=None, \
+        signature = (sources, *, limit = None, heading = None, progress = None, **motion),
+        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, placement=None, \
             corners=None, gap=None)"
     )]
     fn field(
@@ -53,9 +58,10 @@ impl Grid {
         sources: &Bound<'_, PyAny>,
         limit: Option<&Bound<'_, PyAny>>,
         heading: Option<&Bound<'_, PyAny>>,
+        progress: Option<&Bound<'_, PyAny>>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Field> {
-        self.field_of("field", sources, limit, Heading::read(heading, Heading::To)?, motion)
+        self.field_of("field", sources, (limit, progress), Heading::read(heading, Heading::To)?, motion)
     }
 
     /// The distances of all vertices to the nearest source.
@@ -64,7 +70,7 @@ impl Grid {
     /// ----------
     /// sources : array_like of int
     ///     As in `field`.
-    /// limit : float, optional
+    /// limit, progress
     ///     As in `field`.
     /// heading : {"to", "from"}
     ///     As in `field`.
@@ -88,8 +94,8 @@ impl Grid {
     /// >>> mediant.Grid.from_rows([".#.", "..."]).distances((0, 0), k=2).tolist()
     /// [[0.0, inf, 4.0], [1.0, 2.0, 3.0]]
     #[pyo3(
-        signature = (sources, *, limit = None, heading = None, **motion),
-        text_signature = "($self, sources, *, limit=None, heading='to', k=None, neighbors=None, placement=None, \
+        signature = (sources, *, limit = None, heading = None, progress = None, **motion),
+        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, placement=None, \
             corners=None, gap=None)"
     )]
     fn distances<'py>(
@@ -97,10 +103,11 @@ impl Grid {
         sources: &Bound<'py, PyAny>,
         limit: Option<&Bound<'py, PyAny>>,
         heading: Option<&Bound<'py, PyAny>>,
+        progress: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let heading = Heading::read(heading, Heading::To)?;
-        self.field_of("distances", sources, limit, heading, motion)?.into_distances(sources.py())
+        self.field_of("distances", sources, (limit, progress), heading, motion)?.into_distances(sources.py())
     }
 
     /// The vertices that can be reached within a distance.
@@ -145,7 +152,7 @@ impl Grid {
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let heading = Heading::read(heading, Heading::From)?;
-        let field = self.field_of("reach", sources, Some(limit), heading, motion)?;
+        let field = self.field_of("reach", sources, (Some(limit), None), heading, motion)?;
         numpy_function(sources.py(), "isfinite")?.call1((field.into_distances(sources.py())?,))
     }
 
@@ -191,17 +198,17 @@ impl Grid {
         motion: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let heading = Heading::read(heading, Heading::To)?;
-        self.field_of("flow", sources, limit, heading, motion)?.flow(sources.py())
+        self.field_of("flow", sources, (limit, None), heading, motion)?.flow(sources.py())
     }
 }
 
 impl Grid {
-    /// The field of a call.
+    /// The field of a call, with its limit and its progress.
     fn field_of(
         &self,
         function: &str,
         sources: &Bound<'_, PyAny>,
-        limit: Option<&Bound<'_, PyAny>>,
+        (limit, progress): (Option<&Bound<'_, PyAny>>, Option<&Bound<'_, PyAny>>),
         heading: Heading,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Field> {
@@ -210,14 +217,25 @@ impl Grid {
         let sources = Points::read("sources", sources)?.into_vec();
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
+        let progress = callback(progress)?;
         let space = self.space(py, motion)?;
         let limit = limit.unwrap_or(f64::INFINITY);
         let work = move |limits: &Limits| match heading {
             Heading::To => space.within(limits).field_within(sources, limit),
             Heading::From => space.within(limits).field_from_within(sources, limit),
         };
-        let field =
-            detached(py, self.cells(), Limits::new(), work)?.map_err(|error| raised_for("source", error))?;
+        let field = match progress {
+            None => detached(py, self.cells(), Limits::new(), work)?,
+            Some(progress) => {
+                let heard = Heard::default();
+                let told = heard.clone();
+                let work = move |limits: &Limits| work(&told.hear(limits));
+                let field = on_thread(py, Limits::new(), work, |_| heard.tell(&progress))?;
+                heard.tell(&progress)?;
+                field
+            }
+        };
+        let field = field.map_err(|error| raised_for("source", error))?;
         Ok(Field::new(field, motion.rules.placement(), self.ground().clone(), heading))
     }
 }

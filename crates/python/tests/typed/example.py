@@ -35,6 +35,7 @@ costs: NDArray[np.float64] | None = (
     mediant.Grid(blocked, costs=np.ones((5, 9), "u1")).edit_costs((0, 0), 2).costs
 )
 corridor: NDArray[np.float64] = costly.field((0, 0)).corridor(costly.field([(4, 8)]))
+reached: NDArray[np.float64] = costly.distances((0, 0), progress=print)
 links: NDArray[np.float64] = costly.field((0, 0)).directions("arcgis")
 robot: mediant.Grid = mediant.Grid.from_costmap(np.zeros((5, 9), "u1"), unknown=252, world=world)
 around_walls: mediant.Grid = grid.inflated(inflation_radius=3, inscribed_radius=0.5, weight=3)

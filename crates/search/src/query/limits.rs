@@ -32,7 +32,7 @@ use crate::{
 pub struct Limits {
     cost: Option<f64>,
     expansions: Option<u64>,
-    /// The deadline and the flag.
+    /// The deadline and the flag, and the listener.
     interrupt: Interrupt,
 }
 
@@ -140,6 +140,14 @@ impl Limits {
     #[must_use]
     pub fn cancel(mut self, flag: Arc<AtomicBool>) -> Self {
         self.interrupt = self.interrupt.cancel(flag);
+        self
+    }
+
+    /// A function that is told how far work is that tells its progress; searches do not: see
+    /// [`Interrupt::progress`].
+    #[must_use]
+    pub fn progress(mut self, listener: impl Fn(usize, usize) + Send + Sync + 'static) -> Self {
+        self.interrupt = self.interrupt.progress(listener);
         self
     }
 

@@ -193,6 +193,24 @@ test("a limit is a cost, and a clock that asks the same grid again stops nothing
   assert.equal(grid.find([0, 0], [19, 0], { timeout: 1000, k: 4 }).cost, 57);
 });
 
+test("a field tells how many cells have their cost", () => {
+  const [width, height] = [300, 200];
+  const walls = Uint8Array.from({ length: width * height }, (_, at) => Number(at % width === 250));
+  const costs = Array.from(walls, (_, at) => 1 + (at % 7));
+  const space = new Grid(width, height, walls, { costs }).space({ k: 3 });
+  /** @type {[number, number][]} */
+  const told = [];
+  const field = space.field([0, 0], undefined, (done, total) => told.push([done, total]));
+  assert.deepEqual(field.distances(), space.field([0, 0]).distances());
+  assert.deepEqual([told[0], told.at(-1)], [[0, 59800], [50000, 59800]]);
+  assert.ok(told.length > 8 && told.every(([done], i) => i === 0 || done >= told[i - 1][0]));
+  const enough = () => {
+    throw new RangeError("enough");
+  };
+  assert.throws(() => space.field([0, 0], Infinity, enough), { name: "RangeError", message: "enough" });
+  assert.throws(() => space.field([0, 0], 9, /** @type {any} */ (7)), { name: "TypeError", message: /progress/ });
+});
+
 test("the light module says that it has none", async () => {
   const light = await load("light");
   const cells = new Uint8Array(4);

@@ -163,7 +163,7 @@ facts.push(planner.distance(from, [1, 1]), far.length, near?.goal ?? -1, near?.d
 facts.push(hotels.length, hotels.points().length);
 hotels.free();
 
-const field: Field = space.field(to, 10);
+const field: Field = space.field(to, 10, (done, total) => facts.push(done / total));
 const arrays: [Float64Array, Float32Array] = [field.distances(), field.flow()];
 facts.push(
   field.width,
