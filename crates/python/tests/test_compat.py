@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import random
 
@@ -149,8 +150,9 @@ def several_costs_of(rng):
 def test_fields_are_those_of_skimage():
     """Costs, offsets and paths of `MCP_Geometric`: with cells of any size, several starts, and ends."""
     theirs_of = pytest.importorskip("skimage.graph", reason="scikit-image is not installed").MCP_Geometric
+    is_new = "max_step_cost" in inspect.signature(theirs_of.find_costs).parameters  # Since 0.26.
     rng = random.Random(SEED + 3)
-    checked = reached = 0
+    checked = reached = limited = 0
     for number in range(CASES // 8):
         costs = np.abs(several_costs_of(rng))
         costs[np.isnan(costs) | (costs == 0)] = rng.choice([np.inf, -1])
@@ -178,17 +180,23 @@ def test_fields_are_those_of_skimage():
         if len(blocked):
             theirs_, ours_ = (outcome(mcp.traceback, blocked[0]) for mcp in (theirs, ours))
             assert theirs_ == ours_, note
-        ends = [cell_of(rng, costs.shape) for _ in range(2)]
-        is_all = rng.random() < 0.5
-        wanted, _ = theirs.find_costs(starts, ends, is_all)
-        found, numbers = ours.find_costs(starts, ends, is_all)
-        for end in ends if is_all else ():
-            assert math.isclose(found[end], wanted[end], rel_tol=1e-8) or len(set(ends)) < 2, note
-        least = min if not is_all else max
-        assert found[np.isfinite(found)].max() <= least(found[end] for end in ends), note
+        ends = [cell_of(rng, costs.shape, low=1) for _ in range(rng.randint(1, 3))]
+        is_all, limit = rng.random() < 0.5, rng.choice([None, 2.0, 9.5, rng.uniform(0, 20), 0, -1.0])
+        name = rng.choice(["max_cost", "max_step_cost"])
+        their_name = "max_step_cost" if is_new else "max_cost"
+        wanted, _ = theirs.find_costs(starts, ends, is_all, **{their_name: limit})
+        found, numbers = ours.find_costs(starts, ends, is_all, **{name: limit})
+        note = f"{note}, {ends}, {is_all}, {name}: {limit}"
+        both = np.isfinite(found) & np.isfinite(wanted)
+        assert np.allclose(found[both], wanted[both], rtol=1e-8, atol=0), note
+        # Of cells that cost as much as the last end, they take those that come first.
+        last = wanted[np.isfinite(wanted)].max()
+        assert not (np.isfinite(wanted) & ~np.isfinite(found)).any(), note
+        assert np.all(np.isclose(found[np.isfinite(found) & ~np.isfinite(wanted)], last, rtol=1e-8)), note
         assert np.isfinite(found).sum() == (numbers > -2).sum(), note
+        limited += limit is not None and 1 < both.sum() < costs.size / 2
         checked += 1
-    assert checked > CASES / 32 and reached > CASES
+    assert checked > CASES / 32 and reached > CASES and limited > CASES / 200
 
 
 @pytest.mark.parametrize("starts", [[], [(9, 9)], [(0, 1)]], ids=str)
@@ -201,6 +209,30 @@ def test_odd_starts_are_taken_as_by_skimage(starts):
         assert outcome(theirs_of(costs).find_costs, starts) == ours
 
 
+OFFSETS = [
+    [(0, 1), (1, 0), (0, -1), (-1, 0)],
+    np.array([(-1, 1), (0, 1), (1, 0), (1, 1), (0, -1), (-1, 0), (1, -1), (-1, -1)]),
+]
+
+
+@pytest.mark.parametrize("offsets", OFFSETS, ids=len)
+def test_offsets_of_neighbors_are_taken_in_any_order(offsets):
+    theirs_of = pytest.importorskip("skimage.graph", reason="scikit-image is not installed").MCP_Geometric
+    costs = np.random.default_rng(SEED).uniform(1, 9, (9, 12))
+    theirs, ours = theirs_of(costs, offsets), compat.MCP_Geometric(costs, offsets)
+    assert np.array_equal(ours.offsets, theirs.offsets)
+    (wanted, their_numbers), (found, numbers) = theirs.find_costs([(4, 4)]), ours.find_costs([(4, 4)])
+    assert np.allclose(found, wanted, rtol=1e-8, atol=0) and np.array_equal(numbers, their_numbers)
+
+
+@pytest.mark.parametrize("sampling", [(1,), (1, 2, 3), 2, np.array([2, 3]), "ab"], ids=str)
+def test_odd_samplings_are_refused_as_by_skimage(sampling):
+    theirs_of = pytest.importorskip("skimage.graph", reason="scikit-image is not installed").MCP_Geometric
+    both = (theirs_of, compat.MCP_Geometric)
+    theirs, ours = (outcome(of, np.ones((2, 3)), None, True, sampling) for of in both)
+    assert ours == theirs and ours[:2] == ("raised", ValueError)
+
+
 def test_what_only_their_fields_have_is_named():
     for costs, how in [
         ([[1.0, 0.0]], {}),
@@ -208,6 +240,9 @@ def test_what_only_their_fields_have_is_named():
         ([1.0, 2.0], {}),
         ([[1.0, 2e9, 1.5]], {}),
         ([[1.0, 2.0]], {"offsets": [(0, 1)]}),
+        ([[1.0, 2.0]], {"offsets": [(1, 2), (2, 1)]}),
+        ([[1.0, 2.0]], {"sampling": (0, 1)}),
+        ([[1.0, 2.0]], {"sampling": (1, math.nan)}),
     ]:
         with pytest.raises(mediant.OptionError):
             compat.MCP_Geometric(costs, **how)
@@ -216,6 +251,13 @@ def test_what_only_their_fields_have_is_named():
         mcp.find_costs([(0, 1)])
     with pytest.raises(Exception, match="find_costs"):
         mcp.traceback((0, 0))
+    for how in ({"max_coverage": 0.5}, {"max_coverage": math.nan}, {"max_cumulative_cost": 3}):
+        with pytest.raises(mediant.OptionError, match=next(iter(how))):
+            mcp.find_costs([(0, 0)], **how)
+    with pytest.raises(ValueError, match="max_step_cost"):
+        mcp.find_costs([(0, 0)], max_cost=3, max_step_cost=3)
+    with pytest.raises(TypeError, match="goal_reached"):
+        type("Watched", (compat.MCP_Geometric,), {"goal_reached": lambda *_: 2})
 
 
 ODD_ENDS = [

@@ -32,6 +32,8 @@ _ZERO = (
     "some passable cells cost 0: Mediant has positive costs alone, since a path over cells that cost nothing "
     "can be of any length. Give them a cost that is small beside the others"
 )
+# The steps to the neighbors of a cell, in the order of skimage.
+_STEPS = np.array([(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if (row, column) != (0, 0)])
 
 
 def route_through_array(
@@ -178,6 +180,48 @@ def _grid_of(costs: NDArray[Any], cell_size: Any) -> Grid:
         raise OptionError(str(error), "not-supported") from error
 
 
+def _known_offsets(offsets: Iterable[Any]) -> NDArray[np.int_]:
+    """Give offsets as an array, if they are those that an engine has."""
+    given = [tuple(offset) for offset in offsets]
+    for steps in (_STEPS, _STEPS[(_STEPS == 0).any(axis=1)]):
+        if sorted(given) == sorted(map(tuple, steps.tolist())):
+            return np.array(given, dtype=int)
+    raise OptionError(
+        "offsets other than the steps to 8 or 4 neighbors are not there: for more directions use "
+        "mediant.Grid.field with k=4 and more",
+        "not-supported",
+    )
+
+
+def _sampling(sampling: Sequence[float] | None) -> tuple[float, float] | None:
+    """Check the height and the width of a cell, as skimage does."""
+    if sampling is None:
+        return None
+    if not isinstance(sampling, (tuple, list)):
+        raise ValueError(f"Invalid type for sampling: {type(sampling)}.")
+    if len(sampling) != 2:
+        raise ValueError("Need one sampling element per dimension.")
+    height, width = (float(side) for side in sampling)
+    if not (0 < height < math.inf and 0 < width < math.inf):
+        raise OptionError(f"sampling {sampling}: height and width must be positive", "not-supported")
+    return height, width
+
+
+def _one_limit(
+    coverage: float, cumulative: None, max_cost: float | None, max_step_cost: float | None
+) -> float | None:
+    """Give the limit on the costs of cells, if there is one; refuse the others."""
+    if not coverage >= 1:
+        raise OptionError("max_coverage below 1 is not there: give ends", "not-supported")
+    if cumulative is not None:
+        raise OptionError(
+            "max_cumulative_cost is not looked at by skimage: mediant.Grid.field has a limit", "not-supported"
+        )
+    if max_cost is not None and max_step_cost is not None:
+        raise ValueError("max_cost and max_step_cost are the same: give one of them")
+    return max_cost if max_step_cost is None else max_step_cost
+
+
 def _negative_start(cost: object) -> OptionError:
     """Make the error for a start that may only be left."""
     return OptionError(
@@ -196,8 +240,9 @@ class MCP_Geometric:
     ----------
     costs : array_like of shape (rows, columns)
         The costs. Cells that are infinite or negative are impassable. All others must be positive.
-    offsets : None
-        Other moves than those of `fully_connected` are refused.
+    offsets : iterable of tuple of int, optional
+        The moves, in place of `fully_connected`: the 8 or the 4 steps to neighbors in any order. Others are
+        refused.
     fully_connected : bool
         Whether paths may take diagonal steps. They pass between two impassable cells that touch at a corner.
     sampling : tuple of float, optional
@@ -211,8 +256,10 @@ class MCP_Geometric:
     Raises
     ------
     mediant.OptionError
-        The array has not two axes; a cost is zero, or no number, or more than 65536 times another; or there
-        are offsets.
+        The array has not two axes; a cost is zero, or no number, or more than 65536 times another; there are
+        other offsets; or a side of a cell is not positive.
+    TypeError
+        A subclass overrides `goal_reached`: searches do not ask it.
 
     Examples
     --------
@@ -229,7 +276,7 @@ class MCP_Geometric:
     def __init__(
         self,
         costs: ArrayLike,
-        offsets: None = None,
+        offsets: Iterable[Any] | None = None,
         fully_connected: bool = True,
         sampling: Sequence[float] | None = None,
     ) -> None:
@@ -238,23 +285,29 @@ class MCP_Geometric:
             raise TypeError(f"cannot cast costs array to {np.float64}")
         if array.ndim != 2:
             raise OptionError(f"the array must have 2 axes, it has {array.ndim}", "not-supported")
+        self.offsets = _STEPS if fully_connected else _STEPS[(_STEPS == 0).any(axis=1)]
         if offsets is not None:
-            raise OptionError(
-                "offsets other than those of fully_connected are not there: for more directions use "
-                "mediant.Grid.field with k=4 and more",
-                "not-supported",
-            )
-        steps = [(row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if (row, column) != (0, 0)]
-        self.offsets = np.array([step for step in steps if fully_connected or 0 in step])
-        self._costs, self._k = array, 3 if fully_connected else 2
-        self._grid = _grid_of(array, None if sampling is None else tuple(sampling))
+            self.offsets = _known_offsets(offsets)
+        self._costs, self._k = array, 3 if len(self.offsets) == 8 else 2
+        self._sampling = _sampling(sampling)
+        self._grid = _grid_of(array, self._sampling)
         self._found: tuple[NDArray[np.float64], NDArray[np.int16]] | None = None
+
+    def __init_subclass__(cls, **how: Any) -> None:
+        super().__init_subclass__(**how)
+        if hasattr(cls, "goal_reached"):
+            raise TypeError("goal_reached is not asked by the searches here: use ends, or Grid.field(limit=)")
 
     def find_costs(
         self,
         starts: Iterable[Any],
         ends: Iterable[Any] | None = None,
         find_all_ends: bool = True,
+        max_coverage: float = 1.0,
+        max_cumulative_cost: None = None,
+        max_cost: float | None = None,
+        *,
+        max_step_cost: float | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.int16]]:
         """Find the costs of all cells.
 
@@ -263,9 +316,17 @@ class MCP_Geometric:
         starts : iterable of tuple of int
             (row, column) of each start. Negative numbers count from the end.
         ends : iterable of tuple of int, optional
-            Cells that cost more than all of these are left out.
+            Cells that cost more than all of these are left out, unless one of them is named twice. (Of cells
+            that cost exactly as much, skimage leaves out some.)
         find_all_ends : bool
             If not, cells that cost more than the cheapest of the ends are left out.
+        max_coverage : float
+            Less than 1 is refused.
+        max_cumulative_cost : None
+            Others are refused: skimage takes this, and does not look at it.
+        max_cost, max_step_cost : float, optional
+            Cells whose own cost is greater are impassable, but for the starts. These are two names of the
+            same.
 
         Returns
         -------
@@ -278,10 +339,11 @@ class MCP_Geometric:
         Raises
         ------
         ValueError
-            A cell lies outside the array, or no start is passable.
+            A cell lies outside the array, no start is passable, or both names of the limit are given.
         mediant.OptionError
-            A start has a negative cost.
+            A start has a negative cost, or an option is refused.
         """
+        step = _one_limit(max_coverage, max_cumulative_cost, max_cost, max_step_cost)
         shape = self._costs.shape
         cells = [_cell(tuple(start), shape, "start") for start in starts]
         lasts = [_cell(tuple(end), shape, "end") for end in ends or ()]
@@ -291,13 +353,14 @@ class MCP_Geometric:
         cells = [cell for cell in cells if self._costs[cell] != math.inf]
         if not cells:
             raise ValueError("no valid start points to start frontpropagation")
-        field = self._grid.field(cells, k=self._k, corners="always")
+        grid = self._grid if step is None else self._within(step, cells)
+        field = grid.field(cells, k=self._k, corners="always")
         costs = field.distances()
         from_last = np.moveaxis(np.indices(shape), 0, -1) - field.next() + 1
         numbers = np.full((3, 3), -1, dtype=np.int16)
         numbers[tuple((self.offsets + 1).T)] = np.arange(len(self.offsets))
         is_known = np.isfinite(costs)
-        if lasts:
+        if lasts and not (find_all_ends and len(set(lasts)) < len(lasts)):
             reached = [costs[last] for last in lasts]
             is_known &= costs <= (max if find_all_ends else min)(reached)
         costs[~is_known] = math.inf
@@ -305,6 +368,12 @@ class MCP_Geometric:
         traceback[is_known] = numbers[tuple(from_last[is_known].T)]
         self._found = costs, traceback
         return costs.copy(), traceback.copy()
+
+    def _within(self, limit: float, starts: list[tuple[int, int]]) -> Grid:
+        """Make the grid on which dearer cells than this are impassable, but for the starts."""
+        is_wall = self._costs > limit
+        is_wall[tuple(np.transpose(starts))] = False
+        return _grid_of(np.where(is_wall, math.inf, self._costs), self._sampling)
 
     def traceback(self, end: Iterable[Any]) -> list[tuple[int, int]]:
         """Give the cells of the cheapest path to a cell, from the start that is nearest to it.
