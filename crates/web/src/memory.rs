@@ -13,6 +13,8 @@ pub(crate) const INDEX: u64 = 32;
 pub(crate) const PLANNER: u64 = 32;
 /// In costs of cells, and while they are read.
 pub(crate) const COSTS: u64 = 32;
+/// In a costmap and its costs, and while obstacles are inflated.
+pub(crate) const COSTMAP: u64 = 48;
 /// In a field.
 pub(crate) const FIELD: u64 = 24;
 

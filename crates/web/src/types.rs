@@ -140,6 +140,29 @@ export interface CostOptions {
   readonly cellSize?: readonly [x: number, y: number];
 }
 
+/** The options of `Grid.inflated`: lengths are in meters where the grid has a world, else in cells. */
+export interface InflationOptions {
+  /** The distance from obstacles up to which cells cost more: at least the inscribed radius. */
+  readonly inflationRadius: number;
+  /** The radius of the robot: cells so near to the center of a blocked one are blocked, too. 0 by default. */
+  readonly inscribedRadius?: number;
+  /**
+   * The rate at which costs fall, per unit of length; by default they fall to those of byte 1 at the
+   * inflation radius.
+   */
+  readonly costScalingFactor?: number;
+  /** How much the bytes count, 0 or more: the dearest cells cost 1 + weight. 2 by default. */
+  readonly weight?: number;
+}
+
+/** The options of `Grid.fromCostmap`. */
+export interface CostmapOptions {
+  /** How much the bytes count, 0 or more: the dearest cells cost 1 + weight. 2 by default. */
+  readonly weight?: number;
+  /** The byte for which unknown cells are taken, 0 to 252; by default, and for null, they are blocked. */
+  readonly unknown?: number | null;
+}
+
 /** The options of `Grid.fromRows`. */
 export interface RowOptions extends TileOptions, CostOptions {}
 

@@ -313,6 +313,32 @@ fn labels_and_goals() {
 }
 
 #[test]
+fn costmaps() {
+    let grid = grid();
+    let soft = ok(&grid, "inflated", &[json(r#"{"inflationRadius": 3, "weight": 1}"#)]);
+    let answer = ok(&soft, "find", &[at(0, 0), at(7, 0)]);
+    let (cost, length) = (get(&answer, "cost").as_f64(), get(&answer, "length").as_f64());
+    assert!(cost > length && length > Some(7.0), "{cost:?}, {length:?}");
+    assert_eq!(thrown(&soft, "inflated", &[json(r#"{"inflationRadius": 3}"#)]), "MediantError cost");
+    let wrong = json(r#"{"inflationRadius": 1, "inscribedRadius": 2}"#);
+    assert_eq!(thrown(&grid, "inflated", &[wrong]), "MediantError argument");
+    let row = [3.into(), 1.into(), bytes(&[0, 126, 255])];
+    let costs = ok(&ok(&class(&grid), "fromCostmap", &row), "costs", &[]);
+    assert_eq!(js_sys::Float64Array::from(costs).to_vec(), [1.0, 2.0, f64::INFINITY]);
+    assert_eq!(thrown(&class(&grid), "fromCostmap", &row[..2]), "TypeError ");
+    // A field of costs tells how far it is, and ends when its listener throws.
+    let (space, heard) = (ok(&soft, "space", &[]), Array::new());
+    let listener = Function::new_with_args("heard", "return (...counts) => heard.push(counts.join())");
+    let listener = listener.call1(&NONE, &heard).expect("a function");
+    let field = ok(&space, "field", &[at(0, 0), NONE, listener]);
+    assert_eq!(ok(&field, "get", &[at(7, 0)]).as_f64(), cost);
+    assert_eq!(heard.join(" "), "0,17 17,17");
+    let throws = Function::new_no_args("throw new Error('enough')").into();
+    let error = call(&space, "field", &[at(0, 0), NONE, throws]).expect_err("the listener throws");
+    assert_eq!(get(&error, "message"), "enough");
+}
+
+#[test]
 fn fields_and_pictures() {
     let grid = grid();
     let space = ok(&grid, "space", &[]);

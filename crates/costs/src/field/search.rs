@@ -107,6 +107,8 @@ impl<'s> Progress<'s> {
         }
     }
 
+    #[cold]
+    #[inline(never)]
     fn tell(&mut self) {
         self.next = self.scanned + (self.total / TOLD).max(LEAST_TOLD);
         self.interrupt.tell(self.scanned.min(self.total), self.total);
@@ -114,7 +116,9 @@ impl<'s> Progress<'s> {
 
     /// No more are scanned.
     pub(super) fn ends(mut self) {
-        self.tell();
+        if self.is_heard() {
+            self.tell();
+        }
     }
 }
 
@@ -173,7 +177,7 @@ impl Search<'_> {
         moves: impl Scanning,
         progress: Progress<'_>,
     ) -> Result<usize, Interrupted> {
-        debug_assert!(self.threads.get() > 0);
+        debug_assert!(self.threads.get() > 0 && self.across > 0);
         self.run_alone(labels, moves, progress)
     }
 
@@ -221,9 +225,8 @@ impl Search<'_> {
                         moves.scan((state, cost), &mut label);
                     }
                 }
-                // Not in that loop, whose registers are all taken.
                 if progress.is_heard() {
-                    progress.adds(piece.iter().filter(|&&state| label.is_in(state, current)).count());
+                    count(piece, &mut label, &mut progress);
                 }
             }
             states.clear();
@@ -233,17 +236,24 @@ impl Search<'_> {
     }
 }
 
+/// Adds those of the current bucket's states that were scanned. Not in the loop that scans them, whose
+/// registers are all taken, and once for all kinds of moves.
+#[cold]
+#[inline(never)]
+fn count<L: Label>(states: &[u32], label: &mut L, progress: &mut Progress<'_>) {
+    let current = label.queue().current();
+    let mut is_scanned = |&&state: &&u32| {
+        let cost = label.cost(state as usize);
+        label.queue().of(cost) == current
+    };
+    progress.adds(states.iter().filter(|state| is_scanned(state)).count());
+}
+
 /// The labels that a search writes.
 trait Label: Visit {
     fn queue(&mut self) -> &mut Buckets;
 
     fn cost(&self, state: usize) -> u64;
-
-    /// Whether the cost of a state is in a bucket.
-    fn is_in(&mut self, state: u32, bucket: u64) -> bool {
-        let cost = self.cost(state as usize);
-        self.queue().of(cost) == bucket
-    }
 
     /// The state is scanned next.
     fn scans(&mut self, _state: usize) {}

@@ -193,6 +193,66 @@ test("a limit is a cost, and a clock that asks the same grid again stops nothing
   assert.equal(grid.find([0, 0], [19, 0], { timeout: 1000, k: 4 }).cost, 57);
 });
 
+test("costs around obstacles are those of nav2's formula", () => {
+  for (let seed = 1; seed <= 20; seed += 1) {
+    const random = randomFrom(seed);
+    const [width, height] = [3 + random(9), 2 + random(8)];
+    const walls = Uint8Array.from({ length: width * height }, () => Number(random(10) === 0));
+    const inscribedRadius = [0, 1, 1.5][random(3)];
+    const [inflationRadius, weight] = [2 + random(4), [2, 0.5][random(2)]];
+    const factor = random(2) ? 0.75 : Math.log(252) / (inflationRadius - inscribedRadius);
+    const costScalingFactor = factor === 0.75 ? factor : undefined;
+    const meters = random(2) ? 0.5 : 1; // In a world lengths are meters, and factors per meter.
+    let grid = new Grid(width, height, walls);
+    if (meters !== 1) grid = grid.withWorld(new mediant.World(width, height, meters));
+    const options = {
+      inflationRadius: inflationRadius * meters,
+      inscribedRadius: inscribedRadius * meters,
+      costScalingFactor: costScalingFactor && costScalingFactor / meters,
+      weight: weight === 2 ? undefined : weight,
+    };
+    const found = grid.inflated(options);
+    assert.equal(found.world?.resolution, grid.world?.resolution);
+    found.costs()?.forEach((cost, at) => {
+      let distance = Infinity;
+      walls.forEach((wall, other) => {
+        const [dx, dy] = [(at % width) - (other % width), Math.floor(at / width) - Math.floor(other / width)];
+        if (wall) distance = Math.min(distance, Math.hypot(dx, dy));
+      });
+      let byte = distance > inflationRadius ? 0 : 252 * Math.exp(-factor * (distance - inscribedRadius));
+      byte = Math.floor(byte + 1e-9);
+      const expected = distance <= inscribedRadius ? Infinity : 1 + (weight * byte) / 252;
+      const what = `seed ${seed}, cell ${at}, ${JSON.stringify(options)}: ${cost}, not ${expected}`;
+      assert.ok(cost === expected || Math.abs(cost - expected) < 1e-8, what);
+    });
+  }
+});
+
+test("a costmap is bytes that cost, and odd ones are refused", () => {
+  const bytes = Uint8Array.of(0, 126, 252, 253, 254, 255);
+  const costs = (/** @type {any} */ options) => [...(Grid.fromCostmap(6, 1, bytes, options).costs() ?? [])];
+  assert.deepEqual(costs(undefined), [1, 2, 3, Infinity, Infinity, Infinity]);
+  assert.deepEqual(costs({ weight: 4, unknown: 252 }), [1, 3, 5, Infinity, Infinity, 5]);
+  assert.deepEqual(costs({ unknown: null }), costs({}));
+  assert.equal(Grid.fromCostmap(3, 2, bytes).find([0, 0], [2, 0], { k: 2 }).cost, 4);
+  const made = (/** @type {any} */ options) => () => Grid.fromCostmap(3, 2, bytes, options);
+  assert.throws(made({ unknown: 253 }), { code: "argument", message: /unknown.*252/ });
+  assert.throws(made({ weight: -1 }), { code: "argument", message: /^weight: / });
+  assert.throws(made({ weight: 1e15 }), { code: "argument", message: /^weight: / });
+  assert.throws(made({ world: 3 }), { message: /weight, unknown/ });
+  assert.throws(() => Grid.fromCostmap(3, 3, bytes), { code: "argument", message: /9 bytes, found 6/ });
+  assert.throws(() => Grid.fromCostmap(0, 3, bytes), { code: "map-size" });
+  assert.throws(() => Grid.fromCostmap(1, 1, /** @type {any} */ ([7])), TypeError);
+  const grid = Grid.fromRows(["#...."]);
+  const inflated = (/** @type {any} */ options) => () => grid.inflated(options);
+  assert.throws(inflated(undefined), { code: "argument", message: /inflationRadius/ });
+  assert.throws(inflated({ inflationRadius: -1 }), { code: "argument", message: /^inflationRadius/ });
+  assert.throws(inflated({ inflationRadius: 1, inscribedRadius: 2 }), { message: /^inflationRadius/ });
+  assert.throws(inflated({ inflationRadius: 1, costScalingFactor: -1 }), { message: /^costScalingFactor/ });
+  assert.throws(inflated({ radius: 1 }), { message: /inscribedRadius/ });
+  assert.throws(() => Grid.fromCostmap(3, 2, bytes).inflated({ inflationRadius: 2 }), { code: "cost" });
+});
+
 test("a field tells how many cells have their cost", () => {
   const [width, height] = [300, 200];
   const walls = Uint8Array.from({ length: width * height }, (_, at) => Number(at % width === 250));

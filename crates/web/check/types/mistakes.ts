@@ -18,5 +18,6 @@ grid
 grid.width = 3; // wrong
 new Grid(2, 2, new Uint8Array(4), { cost: [1, 1, 1, 1] }); // wrong
 grid.withCosts("1111"); // wrong
+grid.inflated({ inscribedRadius: 1 }); // wrong
 
 export { motion, path };

@@ -32,7 +32,7 @@ pub(crate) struct OfCells {
 const KEPT: usize = 4;
 
 impl OfCells {
-    fn new(costs: Costs) -> Self {
+    pub(super) fn new(costs: Costs) -> Self {
         Self { costs, kept: Rc::default() }
     }
 

@@ -3,6 +3,8 @@
 #[cfg(not(feature = "full"))]
 mod absent;
 #[cfg(feature = "full")]
+mod costmaps;
+#[cfg(feature = "full")]
 mod costs;
 mod queries;
 #[cfg(feature = "full")]
