@@ -226,7 +226,9 @@ impl Search<'_> {
                     }
                 }
                 if progress.is_heard() {
-                    count(piece, &mut label, &mut progress);
+                    // Others were done in an earlier bucket.
+                    let least = label.queue().start_of(current);
+                    progress.adds(count_from(least, piece, label.costs()));
                 }
             }
             states.clear();
@@ -236,24 +238,24 @@ impl Search<'_> {
     }
 }
 
-/// Adds those of the current bucket's states that were scanned. Not in the loop that scans them, whose
-/// registers are all taken, and once for all kinds of moves.
-#[cold]
+/// How many of these states cost so much or more. No part of the loop that scans them, whose registers are all
+/// taken; and nothing but slices is handed over, so that labels stay in registers.
 #[inline(never)]
-fn count<L: Label>(states: &[u32], label: &mut L, progress: &mut Progress<'_>) {
-    let current = label.queue().current();
-    let mut is_scanned = |&&state: &&u32| {
-        let cost = label.cost(state as usize);
-        label.queue().of(cost) == current
-    };
-    progress.adds(states.iter().filter(|state| is_scanned(state)).count());
+fn count_from(least: u64, states: &[u32], costs: &[u64]) -> usize {
+    states.iter().filter(|&&state| costs[state as usize] >= least).count()
 }
 
 /// The labels that a search writes.
 trait Label: Visit {
     fn queue(&mut self) -> &mut Buckets;
 
-    fn cost(&self, state: usize) -> u64;
+    /// The costs of all states.
+    fn costs(&self) -> &[u64];
+
+    #[inline]
+    fn cost(&self, state: usize) -> u64 {
+        self.costs()[state]
+    }
 
     /// The state is scanned next.
     fn scans(&mut self, _state: usize) {}
@@ -288,8 +290,8 @@ impl Label for Costs<'_> {
     }
 
     #[inline]
-    fn cost(&self, state: usize) -> u64 {
-        self.costs[state]
+    fn costs(&self) -> &[u64] {
+        self.costs
     }
 
     fn starts(&mut self, state: usize, _: u32) {
@@ -330,8 +332,8 @@ impl Label for Numbered<'_> {
     }
 
     #[inline]
-    fn cost(&self, state: usize) -> u64 {
-        self.costs.costs[state]
+    fn costs(&self) -> &[u64] {
+        self.costs.costs
     }
 
     #[inline]

@@ -29,7 +29,8 @@ impl Grid {
     /// ```
     ///
     /// @throws MediantError `argument` for a number that is negative or not finite, for an inflation radius
-    /// below the inscribed one, and for a weight so great that costs are too far apart; `cost` for a grid that has costs.
+    /// below the inscribed one, and for a weight so great that costs are too far apart; `cost` for a grid
+    /// that has costs.
     pub fn inflated(
         &self,
         #[wasm_bindgen(unchecked_param_type = "InflationOptions")] options: &JsValue,
