@@ -262,13 +262,20 @@ test("a field tells how many cells have their cost", () => {
   const told = [];
   const field = space.field([0, 0], undefined, (done, total) => told.push([done, total]));
   assert.deepEqual(field.distances(), space.field([0, 0]).distances());
-  assert.deepEqual([told[0], told.at(-1)], [[0, 59800], [50000, 59800]]);
+  assert.deepEqual(
+    [told[0], told.at(-1)],
+    [
+      [0, 59800],
+      [50000, 59800],
+    ],
+  );
   assert.ok(told.length > 8 && told.every(([done], i) => i === 0 || done >= told[i - 1][0]));
   const enough = () => {
     throw new RangeError("enough");
   };
   assert.throws(() => space.field([0, 0], Infinity, enough), { name: "RangeError", message: "enough" });
-  assert.throws(() => space.field([0, 0], 9, /** @type {any} */ (7)), { name: "TypeError", message: /progress/ });
+  const wrong = /** @type {any} */ (7);
+  assert.throws(() => space.field([0, 0], 9, wrong), { name: "TypeError", message: /progress/ });
 });
 
 test("the light module says that it has none", async () => {

@@ -66,13 +66,10 @@ const land: Grid = new Grid(2, 2, new Uint8Array(4), { costs, cellSize: [30, 20]
   .withCosts([1, 2, 3, 4], [1, 1])
   .editCosts([[0, 0]], [null])
   .editCosts([0, 0], 2);
-const inflation: InflationOptions = { inflationRadius: 2, inscribedRadius: 1, costScalingFactor: 3, weight: 4 };
+const soft: InflationOptions = { inflationRadius: 2, inscribedRadius: 1, costScalingFactor: 3, weight: 4 };
 const unknown: CostmapOptions = { weight: 1, unknown: 252 };
-const inflated: Grid[] = [
-  grid.inflated(inflation),
-  Grid.fromCostmap(2, 1, Uint8ClampedArray.of(0, 255), unknown),
-];
-const each: Float64Array | undefined = inflated[0].costs() ?? land.costs();
+const robots: Grid = Grid.fromCostmap(2, 1, Uint8ClampedArray.of(0, 255), unknown);
+const each: Float64Array | undefined = grid.inflated(soft).costs() ?? robots.costs() ?? land.costs();
 const [wide, high]: readonly [number, number] = land.cellSize ?? [1, 1];
 const price: number | undefined = land.space({ k: 3 }).editCosts([1, 1], 5).cost(new Int32Array(4));
 const { cost, length }: Answer = land.find([0, 0], [1, 1]);
