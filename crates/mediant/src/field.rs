@@ -61,7 +61,7 @@ enum Inner {
 /// Makes one field after another in a space, on scratch memory of its own: make one for each thread.
 pub struct Fields {
     inner: Makers,
-    /// What stops all of its fields.
+    /// The interrupt of all its fields.
     interrupt: Interrupt,
 }
 

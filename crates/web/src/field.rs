@@ -111,8 +111,8 @@ impl Field {
 impl Space {
     /// The distance of every vertex to the nearest source, up to a limit in cells if there is one. A vertex
     /// at exactly that distance is in the field. Where cells have costs, `progress` is called now and then
-    /// with the number of vertices that have their cost, and of all that are not blocked: those that cannot
-    /// be reached, or cost more than the limit, are never done. What it throws ends the call.
+    /// with the number of vertices that have their cost, and of all that are not blocked. If some cannot be
+    /// reached, or cost more than the limit, it ends with fewer than all. If it throws, so does the call.
     ///
     /// ```js
     /// const field = space.field([0, 0]);

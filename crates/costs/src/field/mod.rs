@@ -100,7 +100,8 @@ pub struct CostField {
 
 impl CostField {
     /// The field of a query. It tells its [progress](Interrupt::progress): the vertices that have their cost,
-    /// of all that are not blocked, at corners of all. Those that no path reaches within the limit stay out.
+    /// of all that are not blocked, at corners of all. Vertices that no path reaches within the limit are not
+    /// counted.
     ///
     /// ```
     /// use std::sync::{Arc, Mutex};

@@ -238,8 +238,8 @@ impl Search<'_> {
     }
 }
 
-/// How many of these states cost so much or more. No part of the loop that scans them, whose registers are all
-/// taken; and nothing but slices is handed over, so that labels stay in registers.
+/// The number of these states that cost so much or more. It is no part of the loop that scans them, whose
+/// registers are all taken. It is handed slices alone, so that labels stay in registers.
 #[inline(never)]
 fn count_from(least: u64, states: &[u32], costs: &[u64]) -> usize {
     states.iter().filter(|&&state| costs[state as usize] >= least).count()

@@ -15,8 +15,8 @@ use mediant_oracle::{Rng, random_free_vertex};
 
 use crate::common::{for_random_maps, graph, vertices};
 
-/// What some work tells: it is told by the thread that called it, all of the same total, first 0, then never
-/// less.
+/// The progress that some work tells: on the thread that called it, always of the same total, first 0, then
+/// never less.
 fn told<T>(about: &str, work: impl FnOnce(&Interrupt) -> T) -> (T, Vec<(usize, usize)>) {
     let (told, caller) = (Arc::new(Mutex::new(Vec::new())), thread::current().id());
     let listens = Arc::clone(&told);

@@ -28,8 +28,8 @@ impl Grid {
     ///     Whether paths lead to the nearest source or from it: over elevation they take different times.
     /// progress : callable, optional
     ///     Where cells have costs: called now and then, and at the end, with the number of vertices that have
-    ///     their cost, and of all that are not blocked. Those that cannot be reached, or cost more than the
-    ///     limit, are never done. What it raises ends the call.
+    ///     their cost, and of all that are not blocked. If some cannot be reached, or cost more than the
+    ///     limit, it ends with fewer than all. An exception in it ends the call.
     /// **motion
     ///     ``k`` (or ``neighbors``), ``placement``, ``corners`` and ``gap``, as in `find`.
     ///

@@ -122,7 +122,7 @@ fn given(options: &JsValue) -> Result<Vec<(String, JsValue)>, JsValue> {
 
 /// The keys of the options of inflation.
 const INFLATION_KEYS: &str = "inflationRadius, inscribedRadius, costScalingFactor, weight";
-/// Those of a costmap.
+/// The keys of the options of a costmap.
 const COSTMAP_KEYS: &str = "weight, unknown";
 
 /// A byte of a cell that can be crossed.
