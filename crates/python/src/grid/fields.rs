@@ -50,8 +50,8 @@ impl Grid {
     /// [[1, 2], [0, 1], [0, 0]]
     #[pyo3(
         signature = (sources, *, limit = None, heading = None, progress = None, **motion),
-        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, placement=None, \
-            corners=None, gap=None)"
+        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, \
+            placement=None, corners=None, gap=None)"
     )]
     fn field(
         &self,
@@ -95,8 +95,8 @@ impl Grid {
     /// [[0.0, inf, 4.0], [1.0, 2.0, 3.0]]
     #[pyo3(
         signature = (sources, *, limit = None, heading = None, progress = None, **motion),
-        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, placement=None, \
-            corners=None, gap=None)"
+        text_signature = "($self, sources, *, limit=None, heading='to', progress=None, k=None, neighbors=None, \
+            placement=None, corners=None, gap=None)"
     )]
     fn distances<'py>(
         &self,
