@@ -298,7 +298,7 @@ class MCP_Geometric:
         if hasattr(cls, "goal_reached"):
             raise TypeError("goal_reached is not asked by the searches here: use ends, or Grid.field(limit=)")
 
-    def find_costs(
+    def find_costs(  # noqa: PLR0917, as in scikit-image
         self,
         starts: Iterable[Any],
         ends: Iterable[Any] | None = None,
