@@ -230,7 +230,7 @@ pub enum Error {
     NoRoom {
         /// The columns and the rows.
         size: (u32, u32),
-        /// How much they need, in bytes.
+        /// The bytes that they need.
         bytes: u64,
     },
     /// Bytes that are no saved index, or one of another engine or version.

@@ -105,7 +105,7 @@ pub(crate) fn with_flag<T: Send + 'static>(
     }
 }
 
-/// How far some work is: how much is done, and of how much.
+/// The progress of some work: the part that is done, and the whole.
 #[derive(Clone, Default)]
 pub(crate) struct Heard(Arc<[AtomicUsize; 2]>);
 

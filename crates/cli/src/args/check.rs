@@ -55,8 +55,8 @@ With --costs, on a raster, or with --elevation a path must also cost what its ru
 
 With --format jsonl: a line {\"type\": \"path\"} for each path, with \"file\", \"index\", \"holds\", and \
 for one that does not hold \"error\", \"holds_up_to\" (the number of waypoints to which it can be \
-followed), \"segment\", \"from\", \"to\" and \"cell\", as far as there are such; on costs with \"cost\"; last a line {\"type\": \
-\"summary\"} with \"paths\" and \"broken\".
+followed), \"segment\", \"from\", \"to\" and \"cell\", as far as there are such; on costs with \"cost\"; \
+last a line {\"type\": \"summary\"} with \"paths\" and \"broken\".
 
 Exit status: 0 if all paths hold, 1 if some do not, 2 for bad arguments, or a file that cannot be read.
 

@@ -20,7 +20,7 @@ pub(crate) struct CostsArgs {
     pub(crate) inflation: InflationArgs,
 }
 
-/// How a raster of costs or elevations is read.
+/// The options by which a raster of costs or elevations is read.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(crate) struct ReadingArgs {
     /// The band of a raster with several, from 1: a GeoTIFF, or an NPY of bands, rows and columns

@@ -19,7 +19,7 @@ use crate::k;
 /// A side a little longer than [`Grid::MAX_SIDE`], or beyond the numbers of 16 bits.
 const SIZES: [(u32, u32); 3] = [(33_000, 5), (5, 33_000), (66_000, 2)];
 
-/// How many cells are there for one wall, so that walls leave the long way open on most maps.
+/// The cells for one wall: so many that the long way stays open on most maps.
 const FEW: [u64; 3] = [50, 50, 4001];
 
 /// The cost of a cell by a seed.
