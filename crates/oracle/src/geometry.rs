@@ -48,8 +48,8 @@ impl PartialEq for Fraction {
 
 impl Eq for Fraction {}
 
-/// The points `from + t · by` for 0 ≤ t ≤ 1. Coordinates are in half cells, so that centers and corners are
-/// integers.
+/// The points `from + t · by` for 0 ≤ t ≤ 1. Between vertices coordinates are in half cells, so that centers
+/// and corners are integers; between points anywhere, in 1/1024 of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     pub(crate) from: [i64; 2],
@@ -117,8 +117,8 @@ impl Segment {
             .map(|axis| i128::from(self.from[axis]) * t.denominator + i128::from(self.by[axis]) * t.numerator)
     }
 
-    /// The corner of cells, in whole cells, through which the segment passes at t; `None` if there is none at
-    /// t, or if it is an end of the segment.
+    /// The corner of cells, in whole cells, through which a segment in half cells passes at t; `None` if there
+    /// is none at t, or if it is an end of the segment.
     pub(crate) fn corner_at(&self, t: Fraction) -> Option<[i128; 2]> {
         let point = self.scaled_point(t);
         let is_corner = point.iter().all(|coordinate| coordinate % (2 * t.denominator) == 0);

@@ -111,7 +111,7 @@ fn box_and_ring(d: Vector) -> impl Iterator<Item = Vector> {
 }
 
 /// Whether a cell is blocked, at coordinates that may exceed those of a map.
-fn is_blocked(grid: &Grid, x: i64, y: i64) -> bool {
+pub(crate) fn is_blocked(grid: &Grid, x: i64, y: i64) -> bool {
     match (i32::try_from(x), i32::try_from(y)) {
         (Ok(x), Ok(y)) => grid.is_blocked(x, y),
         _ => true,

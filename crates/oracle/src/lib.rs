@@ -11,6 +11,10 @@
 //! * [`Explicit`]: Dijkstra's algorithm on the graph of all legal moves, for every k and for any-angle paths.
 //! * [`Visibility`]: the same costs under corner placement from the visibility graph of the obstacles' convex
 //!   corners, one graph for all k.
+//! * [`PointVisibility`]: any-angle costs between points anywhere in free space, in 1/1024 of a cell, from the
+//!   same graph. [`segment_between_points_is_legal`], [`turn_at_point_is_legal`] and [`point_is_free`] are the
+//!   rules of motion for them, [`validate_between_points`] checks a path, [`random_point`] draws points of every
+//!   [`PointKind`] from a seed. [`magnified`]: a map whose vertices are points of another one.
 //! * [`WeightedGraph`]: Dijkstra's algorithm where cells have a cost a unit of length, a [`WeightedMap`], and
 //!   [`Shares`]: the exact integral of this cost along a segment. [`random_weighted`]: such maps from a seed.
 //! * [`validate`]: checks that a path is legal and has the stated cost.
@@ -50,6 +54,7 @@ mod graph;
 mod interrupts;
 mod legality;
 mod neighborhood;
+mod points;
 mod random;
 mod surfaces;
 mod validate;
@@ -66,6 +71,11 @@ pub use generate::{
 pub use interrupts::check_interrupts;
 pub use legality::{is_gap, segment_is_legal, turn_is_legal, vertex_is_free};
 pub use neighborhood::neighborhood;
+pub use points::{
+    PARTS_PER_CELL, Parts, PointCosts, PointFault, PointKind, PointVisibility, describe_points, magnified,
+    point_is_free, random_free_point, random_point, segment_between_points_is_legal, turn_at_point_is_legal,
+    validate_between_points,
+};
 pub use random::Rng;
 pub use surfaces::{Surface, heights};
 pub use validate::{Fault, validate};

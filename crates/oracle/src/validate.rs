@@ -13,6 +13,11 @@ use crate::{
 /// The largest relative difference between a stated cost and the length of the path.
 const TOLERANCE: f64 = 1e-9;
 
+/// Whether a stated cost is the measured length of a path, but for rounding.
+pub(crate) fn is_close(stated: f64, measured: f64) -> bool {
+    (stated - measured).abs() <= TOLERANCE * measured
+}
+
 /// A fault of a path, and its place.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -157,8 +162,7 @@ pub fn validate(
     check_ends(start, goal, waypoints)?;
     legal_steps(grid, rules, k, waypoints)?;
     let measured = waypoints.windows(2).fold(0.0, |sum, pair| sum + length(pair[0].to(pair[1])));
-    let is_close = (cost - measured).abs() <= TOLERANCE * measured;
-    if is_close { Ok(()) } else { Err(Fault::Cost { stated: cost, measured, start, goal }) }
+    if is_close(cost, measured) { Ok(()) } else { Err(Fault::Cost { stated: cost, measured, start, goal }) }
 }
 
 /// All vertices of a path, with one vertex a move of N(k), or, for k = `None`, the waypoints; the first fault

@@ -68,6 +68,40 @@ impl<'g> Visibility<'g> {
         &self.corners
     }
 
+    /// Dijkstra's algorithm over the corners, from a start outside the graph. `first` is the length from there to
+    /// each corner that it sees, `None` for the others; `length` that of an edge.
+    ///
+    /// For each corner, the optimal cost, infinite if it is not reached, and the corner before it, `None` if
+    /// that is the start.
+    pub(crate) fn spread(
+        &self,
+        first: Vec<Option<f64>>,
+        length: impl Fn(Vertex, Vertex) -> f64,
+    ) -> (Vec<f64>, Vec<Option<u32>>) {
+        let Self { corners, seen, .. } = self;
+        let mut costs: Vec<f64> = first.into_iter().map(|cost| cost.unwrap_or(f64::INFINITY)).collect();
+        let mut previous = vec![None; corners.len()];
+        // Floats that are not negative have the same order as their bits.
+        let reached =
+            |(i, cost): (usize, &f64)| cost.is_finite().then(|| Reverse((cost.to_bits(), i as u32)));
+        let mut open: BinaryHeap<_> = costs.iter().enumerate().filter_map(reached).collect();
+        while let Some(Reverse((bits, from))) = open.pop() {
+            let cost = f64::from_bits(bits);
+            if cost > costs[from as usize] {
+                continue;
+            }
+            for &to in &seen[from as usize] {
+                let next = cost + length(corners[from as usize], corners[to as usize]);
+                if next < costs[to as usize] {
+                    costs[to as usize] = next;
+                    previous[to as usize] = Some(from);
+                    open.push(Reverse((next.to_bits(), to)));
+                }
+            }
+        }
+        (costs, previous)
+    }
+
     /// The graph with edges of length h_k or, for k = `None`, of Euclidean length.
     #[must_use]
     pub fn over(&self, k: Option<FiniteK>) -> VisibilityGraph<'_> {
@@ -129,39 +163,15 @@ impl VisibilityGraph<'_> {
     /// outside the map, no vertex is reached.
     #[must_use]
     pub fn costs_from(&self, start: Vertex) -> VisibilityCosts<'_> {
-        let Visibility { sight, corners, seen } = self.visibility;
-        let mut costs = VisibilityCosts {
-            graph: self,
-            start,
-            cost: vec![f64::INFINITY; corners.len()],
-            previous: vec![None; corners.len()],
+        let Visibility { sight, corners, .. } = self.visibility;
+        let is_free = vertex_is_free(sight.grid, PlacementKind::Corner, start);
+        let first = |&corner: &Vertex| {
+            let is_seen = is_free && sight.may_end(start, corner) && sight.is_legal(start, corner);
+            is_seen.then(|| self.length(start, corner))
         };
-        if !vertex_is_free(sight.grid, PlacementKind::Corner, start) {
-            return costs;
-        }
-        // Floats that are not negative have the same order as their bits.
-        let mut open = BinaryHeap::new();
-        for (i, &corner) in corners.iter().enumerate() {
-            if sight.may_end(start, corner) && sight.is_legal(start, corner) {
-                costs.cost[i] = self.length(start, corner);
-                open.push(Reverse((costs.cost[i].to_bits(), i as u32)));
-            }
-        }
-        while let Some(Reverse((bits, from))) = open.pop() {
-            let cost = f64::from_bits(bits);
-            if cost > costs.cost[from as usize] {
-                continue;
-            }
-            for &to in &seen[from as usize] {
-                let next = cost + self.length(corners[from as usize], corners[to as usize]);
-                if next < costs.cost[to as usize] {
-                    costs.cost[to as usize] = next;
-                    costs.previous[to as usize] = Some(from);
-                    open.push(Reverse((next.to_bits(), to)));
-                }
-            }
-        }
-        costs
+        let first = corners.iter().map(first).collect();
+        let (cost, previous) = self.visibility.spread(first, |a, b| self.length(a, b));
+        VisibilityCosts { graph: self, start, cost, previous }
     }
 
     /// The length of the straight segment between two vertices of the map.
