@@ -117,8 +117,8 @@ impl Segment {
             .map(|axis| i128::from(self.from[axis]) * t.denominator + i128::from(self.by[axis]) * t.numerator)
     }
 
-    /// The corner of cells, in whole cells, through which a segment in half cells passes at t; `None` if there
-    /// is none at t, or if it is an end of the segment.
+    /// The corner of cells, in whole cells, through which a segment in half cells passes at t; `None` if
+    /// there is none at t, or if it is an end of the segment.
     pub(crate) fn corner_at(&self, t: Fraction) -> Option<[i128; 2]> {
         let point = self.scaled_point(t);
         let is_corner = point.iter().all(|coordinate| coordinate % (2 * t.denominator) == 0);

@@ -11,10 +11,11 @@
 //! * [`Explicit`]: Dijkstra's algorithm on the graph of all legal moves, for every k and for any-angle paths.
 //! * [`Visibility`]: the same costs under corner placement from the visibility graph of the obstacles' convex
 //!   corners, one graph for all k.
-//! * [`PointVisibility`]: any-angle costs between points anywhere in free space, in 1/1024 of a cell, from the
-//!   same graph. [`segment_between_points_is_legal`], [`turn_at_point_is_legal`] and [`point_is_free`] are the
-//!   rules of motion for them, [`validate_between_points`] checks a path, [`random_point`] draws points of every
-//!   [`PointKind`] from a seed. [`magnified`]: a map whose vertices are points of another one.
+//! * [`PointVisibility`]: any-angle costs between points anywhere in free space, in 1/1024 of a cell, from
+//!   the same graph. [`segment_between_points_is_legal`], [`turn_at_point_is_legal`] and [`point_is_free`]
+//!   are the rules of motion for them, [`validate_between_points`] checks a path, [`random_point`] draws
+//!   points of every [`PointKind`] from a seed. [`magnified`]: a map whose vertices are points of another
+//!   one.
 //! * [`WeightedGraph`]: Dijkstra's algorithm where cells have a cost a unit of length, a [`WeightedMap`], and
 //!   [`Shares`]: the exact integral of this cost along a segment. [`random_weighted`]: such maps from a seed.
 //! * [`validate`]: checks that a path is legal and has the stated cost.

@@ -68,8 +68,8 @@ impl<'g> Visibility<'g> {
         &self.corners
     }
 
-    /// Dijkstra's algorithm over the corners, from a start outside the graph. `first` is the length from there to
-    /// each corner that it sees, `None` for the others; `length` that of an edge.
+    /// Dijkstra's algorithm over the corners, from a start outside the graph. `first` is the length from
+    /// there to each corner that it sees, `None` for the others; `length` that of an edge.
     ///
     /// For each corner, the optimal cost, infinite if it is not reached, and the corner before it, `None` if
     /// that is the start.

@@ -55,8 +55,8 @@ pub fn segment_between_points_is_legal(grid: &Grid, gap: DiagonalGap, a: Parts, 
     a == b || cells_between(a, b).all(|(x, y)| is_legal_around(grid, gap, &segment, (x, y)))
 }
 
-/// Whether a segment keeps to the rules in cell (x, y), along its left and its upper edge, and at their common
-/// vertex.
+/// Whether a segment keeps to the rules in cell (x, y), along its left and its upper edge, and at their
+/// common vertex.
 fn is_legal_around(grid: &Grid, gap: DiagonalGap, segment: &Segment, (x, y): (i64, i64)) -> bool {
     let blocked = |x: i64, y: i64| is_blocked(grid, x, y);
     let contact = |width: i64, height: i64| {
@@ -100,8 +100,8 @@ fn is_gap_at(grid: &Grid, point: Parts) -> bool {
 /// that both segments are legal. `None` stands for the start or end of the path at `at`.
 ///
 /// There is no restriction unless `at` is exactly a gap. There a path must stay in one closed free quadrant,
-/// and a path that starts or ends there in the quadrant of the vertex's own cell (x, y), which must be free. A
-/// path that consists of `at` alone is legal.
+/// and a path that starts or ends there in the quadrant of the vertex's own cell (x, y), which must be free.
+/// A path that consists of `at` alone is legal.
 #[must_use]
 pub fn turn_at_point_is_legal(grid: &Grid, before: Option<Parts>, at: Parts, after: Option<Parts>) -> bool {
     let Some(vertex) = vertex_at(at).filter(|&vertex| is_gap(grid, vertex)) else { return true };

@@ -89,8 +89,8 @@ pub struct PointCosts<'v> {
 }
 
 impl PointCosts<'_> {
-    /// The cost of an optimal path to `goal`, in cells, 0 for the start itself; `None` if there is no path, or
-    /// if start or goal is blocked or outside the map.
+    /// The cost of an optimal path to `goal`, in cells, 0 for the start itself; `None` if there is no path,
+    /// or if start or goal is blocked or outside the map.
     #[must_use]
     pub fn to(&self, goal: Parts) -> Option<f64> {
         self.last_step(goal).map(|(cost, _)| cost)

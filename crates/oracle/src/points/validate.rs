@@ -23,7 +23,8 @@ pub enum PointFault {
     Still(usize),
     /// The segment to this waypoint from the one before breaks the rules of motion.
     Segment(usize),
-    /// At this waypoint the path passes through a closed gap, or starts or ends in a forbidden quadrant of one.
+    /// At this waypoint the path passes through a closed gap, or starts or ends in a forbidden quadrant of
+    /// one.
     Turn(usize),
     /// The stated cost is not the length of the path.
     Cost {
@@ -59,8 +60,8 @@ impl Error for PointFault {}
 
 /// Checks that `waypoints` is a legal path from `start` to `goal` whose length is `cost`, in cells.
 ///
-/// It may bend anywhere. If start and goal are the same, the path is this one waypoint, with cost 0. Whether a
-/// shorter path exists is not checked.
+/// It may bend anywhere. If start and goal are the same, the path is this one waypoint, with cost 0. Whether
+/// a shorter path exists is not checked.
 ///
 /// # Errors
 /// The first [`PointFault`] that is found.

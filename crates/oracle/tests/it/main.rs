@@ -3,6 +3,8 @@
 mod costs;
 mod maps;
 mod paths;
+mod points;
+mod points_at_random;
 mod rules;
 mod visibility;
 mod weighted;
