@@ -157,8 +157,8 @@ fn random_segment(rng: &mut Rng, grid: &Grid) -> (Parts, Parts) {
     }
 }
 
-/// The rules once more: the lines of the grid cut a segment into pieces, and the middle of each has to touch a
-/// free cell.
+/// The rules once more: the lines of the grid cut a segment into pieces, and the middle of each has to touch
+/// a free cell.
 fn is_legal_by_pieces(grid: &Grid, gap: DiagonalGap, a: Parts, b: Parts) -> bool {
     if !point_is_free(grid, a) || !point_is_free(grid, b) {
         return false;
@@ -227,7 +227,7 @@ fn legality_is_that_of_both_halves() {
         let grid = small_grid(&mut rng);
         for _ in 0..80 {
             let (a, b) = random_segment(&mut rng, &grid);
-            // Half the segments are made longer, so that they have a point between their ends.
+            // Often moved a little, so that a point between the ends has whole coordinates.
             let parts = i64::from(2 + rng.below(3));
             let middle = (a.0 + (b.0 - a.0) / parts, a.1 + (b.1 - a.1) / parts);
             let times = if rng.chance(50) { parts } else { 1 + i64::from(rng.below(3)) };
