@@ -62,6 +62,7 @@ mod obstruction;
 mod per_motion;
 mod placement;
 mod point;
+mod points;
 #[cfg(doctest)]
 mod readme;
 mod rectangle;
@@ -98,7 +99,7 @@ pub use obstruction::Obstruction;
 #[doc(hidden)]
 pub use per_motion::{PerMotion, cost_table};
 pub use placement::{Centers, Corners, Placement, SweptCells};
-pub use point::Point;
+pub use point::{Point, PointCoordinate};
 pub use rectangle::Rectangle;
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]

@@ -2,16 +2,16 @@
 
 use std::fmt;
 
-use crate::{FreeSpace, Placement, SweptCells, Vertex, frame::Frame};
+use crate::{FreeSpace, Placement, Point, SweptCells, Vertex, frame::Frame};
 
 /// The first thing on a segment that the rules of motion do not allow: see [`FreeSpace::obstruction`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Obstruction {
-    /// An end of the segment is no free vertex of the map.
+    /// An end of the segment is not free, or outside the map.
     End {
-        /// The vertex.
-        at: Vertex,
+        /// The end.
+        at: Point,
     },
     /// A blocked cell. At centers the segment touches it, at corners it meets its open interior.
     Cell {
@@ -45,7 +45,10 @@ impl Obstruction {
 impl fmt::Display for Obstruction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::End { at } => write!(f, "vertex {at} is blocked or outside the map"),
+            Self::End { at } => {
+                let word = if at.vertex().is_some() { "vertex" } else { "point" };
+                write!(f, "{word} {at} is blocked or outside the map")
+            }
             Self::Cell { x, y } => write!(f, "cell ({x}, {y}) is blocked"),
             Self::Between { cells: [(ax, ay), (bx, by)] } => {
                 write!(f, "it may not pass between the blocked cells ({ax}, {ay}) and ({bx}, {by})")
@@ -79,16 +82,16 @@ impl<P: Placement> FreeSpace<P> {
     #[must_use]
     pub fn obstruction(&self, from: Vertex, to: Vertex) -> Option<Obstruction> {
         if !self.is_free(from) {
-            return Some(Obstruction::End { at: from });
+            return Some(Obstruction::End { at: from.into() });
         }
         if self.id(to).is_none() {
-            return Some(Obstruction::End { at: to });
+            return Some(Obstruction::End { at: to.into() });
         }
         if self.sees(from, to) {
             return None;
         }
         // A blocked end has a blocked cell before it.
-        Some(self.first_blocked(from, to).unwrap_or(Obstruction::End { at: to }))
+        Some(self.first_blocked(from, to).unwrap_or(Obstruction::End { at: to.into() }))
     }
 
     /// The first blocked cells between two different vertices of the map.

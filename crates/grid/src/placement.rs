@@ -82,6 +82,16 @@ pub trait Placement: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'st
     #[doc(hidden)]
     fn representative(grid: &Grid, rule: Self::Rule, at: Vertex) -> Vertex;
 
+    /// The free space, if it is one of corners.
+    #[doc(hidden)]
+    fn at_corners(space: &crate::FreeSpace<Self>) -> Option<&crate::FreeSpace<Corners>>
+    where
+        Self: Sized,
+    {
+        let _ = space;
+        None
+    }
+
     /// Whether paths may not pass through gaps, the vertices where two blocked cells meet diagonally.
     #[doc(hidden)]
     fn closes_gaps(rule: Self::Rule) -> bool;
@@ -254,6 +264,10 @@ impl Placement for Corners {
         }
         let cells = around(at);
         cells.into_iter().find(|cell| grid.is_free(cell.x, cell.y)).unwrap_or(at)
+    }
+
+    fn at_corners(space: &crate::FreeSpace<Self>) -> Option<&crate::FreeSpace<Corners>> {
+        Some(space)
     }
 
     fn closes_gaps(rule: DiagonalGap) -> bool {

@@ -2,14 +2,15 @@
 
 use std::fmt;
 
-use crate::Vertex;
-
-/// The parts of a cell that coordinates are counted in.
-const PARTS: i64 = 1024;
+use crate::{Coordinate, Vertex};
 
 /// A point of the plane, in cells. Its coordinates are exact multiples of 1/1024, so equal points are equal,
 /// and a whole coordinate is told apart from one that is nearly so. A [`Vertex`] is a point with whole
 /// coordinates.
+///
+/// Pairs and arrays of numbers, integers or floats, are points, and go where a call takes `impl Into<Point>`. A
+/// number is rounded to the nearest multiple; one that is too large for every map, or no number, becomes a
+/// coordinate outside of every map.
 ///
 /// As text, and by serde, a whole coordinate is an integer and another one the shortest decimal.
 ///
@@ -22,6 +23,7 @@ const PARTS: i64 = 1024;
 /// let whole = Point::from(Vertex::new(2, 0));
 /// assert_eq!((whole.vertex(), whole.to_string()), (Some(Vertex::new(2, 0)), "(2, 0)".to_owned()));
 /// assert_eq!(Point::nearest(2.0, 0.0), Some(whole));
+/// assert_eq!([Point::from((2.03, 0.5)), Point::from([2, 0])], [between, whole]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Point {
@@ -31,13 +33,28 @@ pub struct Point {
 }
 
 impl Point {
+    /// The parts of a cell that coordinates are counted in.
+    pub const PARTS: i64 = 1024;
+
+    /// The point with these coordinates in parts of a cell.
+    #[must_use]
+    pub const fn from_parts(x: i64, y: i64) -> Self {
+        Self { x, y }
+    }
+
+    /// The coordinates (x, y) in parts of a cell.
+    #[must_use]
+    pub const fn parts(self) -> (i64, i64) {
+        (self.x, self.y)
+    }
+
     /// The nearest point with coordinates in multiples of 1/1024, of two equally near ones the one further
     /// from 0. `None` for a coordinate that is not a number, or beyond those of all vertices.
     #[must_use]
     pub fn nearest(x: f64, y: f64) -> Option<Self> {
         let parts = |cells: f64| {
             let is_in_range = cells >= f64::from(i32::MIN) && cells <= f64::from(i32::MAX);
-            is_in_range.then(|| (cells * PARTS as f64).round() as i64)
+            is_in_range.then(|| (cells * Self::PARTS as f64).round() as i64)
         };
         Some(Self { x: parts(x)?, y: parts(y)? })
     }
@@ -46,26 +63,137 @@ impl Point {
     #[must_use]
     pub fn x(self) -> f64 {
         // At most 2⁴¹ parts, which an `f64` holds.
-        self.x as f64 / PARTS as f64
+        self.x as f64 / Self::PARTS as f64
     }
 
     /// The coordinate down, in cells.
     #[must_use]
     pub fn y(self) -> f64 {
-        self.y as f64 / PARTS as f64
+        self.y as f64 / Self::PARTS as f64
+    }
+
+    /// The straight-line distance to another point, in cells.
+    #[must_use]
+    pub fn distance(self, other: Self) -> f64 {
+        let [x, y] = [(self.x, other.x), (self.y, other.y)].map(|(a, b)| a.abs_diff(b) as f64);
+        (x * x + y * y).sqrt() / Self::PARTS as f64
+    }
+
+    /// The square of [`distance`](Self::distance).
+    #[must_use]
+    pub fn distance_squared(self, other: Self) -> f64 {
+        let [x, y] = [(self.x, other.x), (self.y, other.y)].map(|(a, b)| a.abs_diff(b) as f64);
+        (x * x + y * y) / (Self::PARTS * Self::PARTS) as f64
+    }
+
+    /// The vertex at this point, or the nearest one above and to the left.
+    #[must_use]
+    pub fn floor(self) -> Vertex {
+        let whole = |parts: i64| parts.div_euclid(Self::PARTS);
+        (whole(self.x), whole(self.y)).into()
+    }
+
+    /// The vertex at this point, or the nearest one below and to the right.
+    #[must_use]
+    pub fn ceil(self) -> Vertex {
+        let whole = |parts: i64| -(-parts).div_euclid(Self::PARTS);
+        (whole(self.x), whole(self.y)).into()
     }
 
     /// The vertex at this point, if its coordinates are whole.
     #[must_use]
     pub fn vertex(self) -> Option<Vertex> {
-        let whole = |parts: i64| i32::try_from(parts / PARTS).ok().filter(|_| parts % PARTS == 0);
+        let whole = |parts: i64| i32::try_from(parts / Self::PARTS).ok().filter(|_| parts % Self::PARTS == 0);
         Some(Vertex::new(whole(self.x)?, whole(self.y)?))
+    }
+}
+
+impl From<&Vertex> for Point {
+    fn from(vertex: &Vertex) -> Self {
+        (*vertex).into()
     }
 }
 
 impl From<Vertex> for Point {
     fn from(Vertex { x, y }: Vertex) -> Self {
-        Self { x: i64::from(x) * PARTS, y: i64::from(y) * PARTS }
+        Self { x: i64::from(x) * Self::PARTS, y: i64::from(y) * Self::PARTS }
+    }
+}
+
+impl From<&Self> for Point {
+    fn from(point: &Self) -> Self {
+        *point
+    }
+}
+
+impl PartialEq<Vertex> for Point {
+    fn eq(&self, other: &Vertex) -> bool {
+        *self == Self::from(*other)
+    }
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A number that is a coordinate of a [`Point`]: an integer of at most 64 bits, or a float.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no coordinate of a point: give an integer or a float",
+    label = "neither an integer of at most 64 bits nor a float"
+)]
+pub trait PointCoordinate: Copy + sealed::Sealed {
+    /// The coordinate in parts of a cell.
+    #[doc(hidden)]
+    fn parts(self) -> i64;
+}
+
+macro_rules! whole {
+    ($($integer:ty),+) => {
+        $(
+            impl sealed::Sealed for $integer {}
+
+            impl PointCoordinate for $integer {
+                #[inline]
+                fn parts(self) -> i64 {
+                    i64::from(Coordinate::saturated(self)) * Point::PARTS
+                }
+            }
+        )+
+    };
+}
+
+whole!(i8, i16, i32, i64, isize, u8, u16, u32, u64, usize);
+
+macro_rules! decimal {
+    ($($float:ty),+) => {
+        $(
+            impl sealed::Sealed for $float {}
+
+            impl PointCoordinate for $float {
+                #[inline]
+                fn parts(self) -> i64 {
+                    let last = f64::from(i32::MAX);
+                    let cells = if self.is_nan() { -last } else { f64::from(self).clamp(-last, last) };
+                    (cells * Point::PARTS as f64).round() as i64
+                }
+            }
+        )+
+    };
+}
+
+decimal!(f32, f64);
+
+impl<X: PointCoordinate, Y: PointCoordinate> From<(X, Y)> for Point {
+    #[inline]
+    fn from((x, y): (X, Y)) -> Self {
+        Self::from_parts(x.parts(), y.parts())
+    }
+}
+
+impl<C: PointCoordinate> From<[C; 2]> for Point {
+    #[inline]
+    fn from([x, y]: [C; 2]) -> Self {
+        Self::from_parts(x.parts(), y.parts())
     }
 }
 

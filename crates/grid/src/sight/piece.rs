@@ -42,10 +42,10 @@ impl Edge {
         Self { end: self.end.moved_to(self.end.after(lines)), ..*self }
     }
 
-    /// The ray through the end, from a root in column `x`, `n` lines away.
+    /// The ray through the end, from a root at `x`, `n` away, both in parts of a cell.
     #[inline]
     pub(super) fn as_ray(&self, x: i32, n: i32) -> Ray {
-        if self.is_wall { Ray { dx: self.end.here.floor() - x, dy: n } } else { self.end.ray }
+        if self.is_wall { Ray::through(self.end.here.floor(), x, n) } else { self.end.ray }
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{BitRow, Corners, FreeSpace, Vertex};
 use super::{
     interval::{IntervalEnd, Ray},
     piece::{Edge, Piece, widens},
+    place::Place,
     row_summary::RowSummary,
     runs::row_ahead,
     targets::{Quadrants, Targets},
@@ -50,7 +51,7 @@ pub struct VisibilitySweep {
 struct Half<'t> {
     space: &'t FreeSpace<Corners>,
     summary: &'t RowSummary,
-    from: Vertex,
+    from: Place,
     /// 1 for the half below, −1 for the one above.
     down: i32,
 }
@@ -71,21 +72,23 @@ impl VisibilitySweep {
         space: &'m FreeSpace<Corners>,
         summary: &'m RowSummary,
         marks: impl Into<Targets<'m>>,
-        from: Vertex,
+        from: impl Into<Place>,
         quadrants: Quadrants,
         mut found: impl FnMut(Vertex),
     ) {
-        if !space.is_free(from) {
+        let (from, marks) = (from.into(), marks.into());
+        if !from.is_free(space.grid().rows()) {
             return;
         }
-        let marks = marks.into();
         self.sweep(space, summary, from, quadrants, &mut TargetsOf { marks, from, found: &mut found });
         for right in [1, -1] {
-            if quadrants.contains_horizontal(right) {
-                let (x, is_mark) = along_line(space, marks, from, right);
-                let at = Vertex::new(x, from.y);
-                if is_mark && (!space.has_closed_gaps() || space.sees(from, at)) {
-                    found(at);
+            if let Some(near) = on_line(from, right).filter(|_| quadrants.contains_horizontal(right)) {
+                let (x, is_mark) = along_line(space, marks, near, right);
+                // The vertices between both.
+                let (low, high) = if right > 0 { (near.x + 1, x - 1) } else { (x + 1, near.x - 1) };
+                let passes_gap = || space.grid().rows().any_gap(near.y, low, high);
+                if is_mark && !(space.has_closed_gaps() && passes_gap()) {
+                    found(Vertex::new(x, near.y));
                 }
             }
         }
@@ -111,7 +114,7 @@ impl VisibilitySweep {
         if !space.is_free(from) {
             return;
         }
-        self.sweep(space, summary, from, quadrants, &mut RunsOf { run: &mut run });
+        self.sweep(space, summary, Place::of(from), quadrants, &mut RunsOf { run: &mut run });
         let marks = marks.into();
         for right in [1, -1] {
             if quadrants.contains_horizontal(right) {
@@ -147,7 +150,7 @@ impl VisibilitySweep {
     ) -> [Vertex; 2] {
         let mut bounds = BoundsOf { low: from, high: from };
         if space.is_free(from) {
-            self.sweep(space, summary, from, quadrants, &mut bounds);
+            self.sweep(space, summary, Place::of(from), quadrants, &mut bounds);
             let marks = marks.into();
             for right in [1, -1] {
                 if quadrants.contains_horizontal(right) {
@@ -159,12 +162,12 @@ impl VisibilitySweep {
         [bounds.low, bounds.high]
     }
 
-    /// Follows all intervals above and below a vertex.
+    /// Follows all intervals above and below a place.
     fn sweep<'m>(
         &mut self,
         space: &'m FreeSpace<Corners>,
         summary: &'m RowSummary,
-        from: Vertex,
+        from: Place,
         quadrants: Quadrants,
         visitor: &mut impl Visitor<'m>,
     ) {
@@ -180,6 +183,13 @@ impl VisibilitySweep {
             }
         }
     }
+}
+
+/// The vertex from which a place sees along its line to the right (`right` = 1) or to the left (−1), itself or
+/// the nearest one behind it; `None` for a place between two lines.
+fn on_line(from: Place, right: i32) -> Option<Vertex> {
+    let ((left, after), (y, below)) = (from.columns(), from.lines());
+    (y == below).then_some(Vertex::new(if right > 0 { left } else { after }, y))
 }
 
 /// How far a vertex sees along the horizontal line to the right (`right` = 1) or to the left (−1), closed
@@ -217,13 +227,18 @@ fn along_line(space: &FreeSpace<Corners>, marks: Targets<'_>, from: Vertex, righ
 impl<'t> Half<'t> {
     /// The interval of the first line that is seen, to the left, to the right or both.
     fn first(&self, left: bool, right: bool) -> Option<Piece> {
-        let (x, ahead) = (self.from.x, self.ahead(self.from.y));
-        let start = if left { ahead.run_start(x, 0) } else { x };
-        let end = if right { ahead.first_blocked(x, i32::MAX) } else { x };
+        let line = self.from.line(self.down);
+        let (start, end) = self.from.run(self.ahead(line));
+        // Only a vertex is looked from into one quadrant alone.
+        let (x, _) = self.from.columns();
+        let (start, end) = (if left { start } else { x }, if right { end } else { x });
         // Where the quadrant ends and no obstacle is in the way, the interval ends at the vertical through
         // the root.
-        let edge = |end| if end == x { Edge::ray(IntervalEnd::standing(x)) } else { Edge::wall(end) };
-        let piece = Piece { line: self.from.y + self.down, left: edge(start), right: edge(end) };
+        let edge = |end| {
+            let is_above = Place::parts(end) == self.from.x;
+            if is_above { Edge::ray(IntervalEnd::standing(end)) } else { Edge::wall(end) }
+        };
+        let piece = Piece { line: line + self.down, left: edge(start), right: edge(end) };
         (start < end).then_some(piece)
     }
 
@@ -293,10 +308,10 @@ impl<'t> Half<'t> {
         }
     }
 
-    /// The distance of a line from the root.
+    /// The distance of a line from the root, in parts of a cell.
     #[inline]
     const fn distance(&self, line: i32) -> i32 {
-        (line - self.from.y) * self.down
+        (Place::parts(line) - self.from.y) * self.down
     }
 
     /// Turns ends that follow a wall into rays if the wall ends on this line.
@@ -348,16 +363,17 @@ impl<'t> Half<'t> {
         // obstacle is between the vertical through the root and the interval, this is its corner on this
         // line. Otherwise it is its corner on the next line, up to which the interval follows the obstacle as
         // a wall.
-        let shaded = |end: i32| Edge::ray(IntervalEnd::new(Ray { dx: end - x, dy: n }, x, n + 1));
+        let next = n + Place::parts(1);
+        let shaded = |end: i32| Edge::ray(IntervalEnd::new(Ray::through(end, x, n), x, next));
         let left = if start > piece.left.end.here.floor() {
-            if start > x { shaded(start) } else { Edge::wall(start) }
+            if Place::parts(start) > x { shaded(start) } else { Edge::wall(start) }
         } else if left.end.here.floor() < start {
             Edge::wall(start)
         } else {
             left
         };
         let right = if end < piece.right.end.here.ceil() {
-            if end < x { shaded(end) } else { Edge::wall(end) }
+            if Place::parts(end) < x { shaded(end) } else { Edge::wall(end) }
         } else if right.end.here.ceil() > end {
             Edge::wall(end)
         } else {
@@ -365,8 +381,7 @@ impl<'t> Half<'t> {
         };
         // An interval that has shrunk to a single ray touches obstacles on both sides, and ends at the
         // vertex.
-        let (l, r) = (left.as_ray(x, n + 1), right.as_ray(x, n + 1));
-        let widens = i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy);
+        let widens = right.as_ray(x, next).is_right_of(left.as_ray(x, next));
         widens.then_some(Piece { line: piece.line + self.down, left, right })
     }
 }

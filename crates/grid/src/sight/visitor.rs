@@ -2,7 +2,7 @@
 
 use crate::{BitRow, Vertex};
 
-use super::{piece::Piece, row_summary::RowSummary, targets::Targets};
+use super::{piece::Piece, place::Place, row_summary::RowSummary, targets::Targets};
 
 /// A visitor of the intervals that a sweep follows.
 pub(super) trait Visitor<'m> {
@@ -33,7 +33,7 @@ pub(super) trait Visitor<'m> {
 /// Looks for targets.
 pub(super) struct TargetsOf<'m, 'f, F> {
     pub(super) marks: Targets<'m>,
-    pub(super) from: Vertex,
+    pub(super) from: Place,
     pub(super) found: &'f mut F,
 }
 
@@ -61,13 +61,13 @@ impl<'m, F: FnMut(Vertex)> Visitor<'m> for TargetsOf<'m, '_, F> {
     }
 
     fn interval(&mut self, piece: Piece, down: i32, marks: Self::Line) {
-        let (x, line) = (self.from.x, piece.line);
+        let ((x, after), line) = (self.from.columns(), piece.line);
         let (first, last) = piece.columns();
         let [left, right] = if down > 0 { [marks[1], marks[0]] } else { marks };
-        if first < x {
-            report(left, line, first, last.min(x - 1), self.found);
+        if first < after {
+            report(left, line, first, last.min(after - 1), self.found);
         }
-        if first <= x && x <= last && self.is_marked(x, down, marks) {
+        if x == after && first <= x && x <= last && self.is_marked(x, down, marks) {
             (self.found)(Vertex::new(x, line));
         }
         if last > x {
@@ -85,7 +85,7 @@ impl<F> TargetsOf<'_, '_, F> {
     /// Whether the vertex in column x is a target, given the rows of targets of its line.
     #[inline]
     fn is_marked(&self, x: i32, down: i32, [same, opposite]: [BitRow<'_>; 2]) -> bool {
-        match (x - self.from.x) * down {
+        match (Place::parts(x) - self.from.x) * down {
             0 => same.is_blocked(x) || opposite.is_blocked(x),
             1.. => same.is_blocked(x),
             _ => opposite.is_blocked(x),

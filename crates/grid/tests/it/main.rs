@@ -6,6 +6,7 @@ mod edits;
 mod interrupts;
 mod legality;
 mod long;
+mod points;
 mod polygon;
 mod rectangle;
 mod segments;
