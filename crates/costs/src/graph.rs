@@ -147,9 +147,9 @@ impl CostGraph {
         if self.position(at).is_none() {
             let (width, height) = self.size();
             let last = Vertex::new(width as i32 - 1, height as i32 - 1);
-            return Err(QueryError::Outside { end, at, last });
+            return Err(QueryError::Outside { end, at: at.into(), last });
         }
-        if self.is_free(at) { Ok(()) } else { Err(QueryError::Blocked { end, at }) }
+        if self.is_free(at) { Ok(()) } else { Err(QueryError::Blocked { end, at: at.into() }) }
     }
 
     /// The cost of a move from a vertex; `None` if it is no legal move of N(k) there.

@@ -135,7 +135,7 @@ impl Answer {
         }
     }
 
-    /// The certificate of the path: no path at any angle between the same two vertices under the same rules
+    /// The certificate of the path: no path at any angle between the same two ends under the same rules
     /// is shorter than this, in cells. It is the length of the path divided by the [bound](Guarantee::bound)
     /// of the engine's guarantee, or the straight line if that is longer. `None` without a path, and on a
     /// cost surface. The length divided by it says how far the path can be from the best at most.
@@ -155,9 +155,9 @@ impl Answer {
     #[must_use]
     pub fn any_angle_lower_bound(&self, guarantee: Guarantee, rules: Rules) -> Option<f64> {
         let path = self.path().filter(|_| !guarantee.is_of_costs())?;
-        let (start, goal) = (path.waypoints().first()?, path.waypoints().last()?);
+        let (start, goal) = (path.start()?, path.goal()?);
         // The rounded sum of a straight path's parts may be less than the straight line.
-        Some(guarantee.lower_bound(rules, path.cost(), start.distance(*goal)).min(path.cost()))
+        Some(guarantee.lower_bound(rules, path.cost(), start.distance(goal)).min(path.cost()))
     }
 }
 

@@ -79,7 +79,11 @@ impl Guarantee {
     /// length. So paths that are equally long compare as equal.
     #[must_use]
     pub fn cost(self, path: &Path) -> Cost {
-        self.cost_along(path.waypoints())
+        match path.waypoints() {
+            // Through points that are no vertices: at any angle.
+            [] => Cost::from_bits((path.length() * (1_u64 << Cost::FRACTION_BITS) as f64 + 0.5) as u64),
+            waypoints => self.cost_along(waypoints),
+        }
     }
 
     /// The [`cost`](Self::cost) of the path with these waypoints.

@@ -88,7 +88,9 @@ pub use jps::{BlockJps, Jps, JpsPlus, JumpError, JumpTable};
 pub use observer::{Counters, NodeEvent, Observer};
 pub use path::{BrokenPath, JoinError, Path, SpacingError, Turn};
 pub use planner::{Planner, SearchStatus};
-pub use query::{End, Ends, Limit, Limits, PathCosts, Query, QueryError, Search, Stopped};
+pub use query::{
+    End, EndSpace, Ends, Limit, Limits, PathCosts, PointEnds, Query, QueryError, Search, Stopped,
+};
 pub use replanning::{DStarLite, Lengths, LpaStar, MoveCosts};
 pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};
 pub use theta::{LazyThetaStar, ThetaStar};

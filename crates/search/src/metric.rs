@@ -1,6 +1,6 @@
 //! The length of a displacement where no obstacle is in the way.
 
-use mediant_grid::{Vector, cost_table};
+use mediant_grid::{Point, Vector, cost_table};
 use mediant_moves::{Cost, CostTable, K, KError};
 
 use crate::segment::segment_cost;
@@ -33,6 +33,16 @@ impl Metric {
         match self {
             Self::Hk(costs) => costs.distance(v),
             Self::Euclidean => segment_cost(v),
+        }
+    }
+
+    /// The length of the way between two points where no obstacle is in the way; of points that are no vertices
+    /// the straight line, rounded down.
+    #[must_use]
+    pub fn between(self, from: Point, to: Point) -> Cost {
+        match from.vertex().zip(to.vertex()) {
+            Some((from, to)) => self.distance(from.to(to)),
+            None => Cost::from_bits((from.distance(to) * (1_u64 << Cost::FRACTION_BITS) as f64) as u64),
         }
     }
 

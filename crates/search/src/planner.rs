@@ -1,13 +1,13 @@
 //! The contract of every engine.
 
-use mediant_grid::{Identity, Vertex};
+use mediant_grid::{Identity, Point, Vertex};
 
 use crate::{
     answer::Answer,
     guarantee::Guarantee,
     observer::{Observer, Part},
     path::Path,
-    query::{Ends, QueryError},
+    query::{Ends, PointEnds, QueryError},
 };
 
 /// Answers queries, one after another, on scratch memory of its own: make one for each thread.
@@ -28,6 +28,18 @@ pub trait Planner {
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError>;
+
+    /// Begins the search for a path between two points that need not be vertices, as [`begin`](Self::begin)
+    /// does between vertices. `None` by a planner whose paths start and end at vertices: nothing was begun
+    /// then.
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        let _ = (ends, observer);
+        None
+    }
 
     /// Begins the search for the shortest of the paths from several starts to a goal, which all have a way to
     /// it. `None` by a planner that searches from one start only: nothing was begun then.
@@ -54,6 +66,12 @@ pub trait Planner {
     /// memory of its search to make the path that it has found may know no other paths then.
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
 
+    /// [`path_to`](Self::path_to) for a point: the goal of a search that was [begun](Self::begin_at) between
+    /// points.
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        self.path_to(at.vertex()?)
+    }
+
     /// The guarantee of the paths.
     fn guarantee(&self) -> Guarantee;
 
@@ -72,6 +90,24 @@ pub trait Planner {
         };
         let path = if status == SearchStatus::Found { self.path_to(query.goal) } else { None };
         Ok(path.map_or(Answer::Unreachable, Answer::Found))
+    }
+
+    /// Answers a query between two points; `None` by a planner whose paths start and end at vertices, unless
+    /// both are.
+    fn solve_at(&mut self, ends: PointEnds) -> Option<Result<Answer, QueryError>> {
+        if let Some(ends) = ends.vertices() {
+            return Some(self.solve(ends));
+        }
+        let mut none = ();
+        let observer = &mut Part::new(&mut none);
+        let status = match self.begin_at(ends, observer)? {
+            Ok(SearchStatus::Searching) => self.proceed(observer),
+            begun => begun,
+        };
+        Some(status.map(|status| {
+            let path = (status == SearchStatus::Found).then(|| self.path_to_point(ends.goal)).flatten();
+            path.map_or(Answer::Unreachable, Answer::Found)
+        }))
     }
 
     /// Answers a query.

@@ -1,21 +1,23 @@
 //! A cone that advances from line to line: the most frequent step of a search, by additions and words.
 
 use mediant_grid::{
-    BitMatrix, BitRow, Vertex,
-    sight::{Crossing, IntervalEnd, Runs, Side, Window, row_ahead},
+    BitMatrix, BitRow,
+    sight::{Crossing, IntervalEnd, Place, Runs, Side, Window, row_ahead},
 };
 
-use super::frontier::Node;
+use super::{frontier::Node, goal::Goal};
 
 /// The cone between a root and an interval of a line, before it crosses the row of cells ahead.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone<'g> {
-    pub(super) root: Vertex,
+    pub(super) root: Place,
     /// The root's number.
     pub(super) number: u32,
     pub(super) line: i32,
     /// 1 if the cone leads downwards, −1 if upwards.
     pub(super) down: i32,
+    /// The line on which its interval may hold the goal.
+    pub(super) stop: i32,
     pub(super) left: Edge,
     pub(super) right: Edge,
     pub(super) ahead: BitRow<'g>,
@@ -63,17 +65,18 @@ impl Edge {
 
 impl<'g> Cone<'g> {
     #[inline]
-    pub(super) fn new(rows: &'g BitMatrix, root: Vertex, node: Node) -> Self {
+    pub(super) fn new(rows: &'g BitMatrix, root: Place, node: Node, goal: &Goal) -> Self {
         let Node { root: number, line, left, right } = node;
-        let down = (line - root.y).signum();
-        let edge = |ray| Edge::on(IntervalEnd::new(ray, root.x, (line - root.y) * down));
-        let ahead = row_ahead(rows, line, down);
-        Self { root, number, line, down, left: edge(left), right: edge(right), ahead }
+        let away = Place::parts(line) - root.y;
+        let down = away.signum();
+        let edge = |ray| Edge::on(IntervalEnd::new(ray, root.x, away * down));
+        let (ahead, stop) = (row_ahead(rows, line, down), goal.stop(down));
+        Self { root, number, line, down, stop, left: edge(left), right: edge(right), ahead }
     }
 
     /// The cone of a successor on the next line, from a root that sees it.
     #[inline]
-    pub(super) fn next(&self, root: Vertex, successor: Successor) -> Self {
+    pub(super) fn next(&self, root: Place, successor: Successor) -> Self {
         let Successor { root: number, left, right } = successor;
         let (line, ahead) = (self.line + self.down, self.ahead.below(self.down));
         Self { root, number, line, left: Edge::on(left), right: Edge::on(right), ahead, ..*self }
@@ -91,10 +94,10 @@ impl<'g> Cone<'g> {
         Node { root: self.number, line: self.line, left, right }
     }
 
-    /// The distance of the line from the root.
+    /// The distance of the line from the root, in parts of a cell.
     #[inline]
     pub(super) const fn distance(&self) -> i32 {
-        (self.line - self.root.y) * self.down
+        (Place::parts(self.line) - self.root.y) * self.down
     }
 
     /// The interval end at an edge, with its ray.
@@ -109,18 +112,18 @@ impl<'g> Cone<'g> {
         IntervalEnd::corner(x, self.root.x, self.distance())
     }
 
-    /// Whether the interval holds a vertex.
+    /// Whether the interval holds the goal, or the root sees the goal through it, in the next row of cells.
     #[inline]
-    pub(super) fn holds(&self, at: Vertex) -> bool {
-        self.line == at.y && self.left.here().ceil() <= at.x && at.x <= self.right.here().floor()
+    pub(super) fn holds(&self, goal: &Goal) -> bool {
+        self.line == self.stop && goal.is_seen_by(self)
     }
 
     /// Advances from line to line while the cone crosses one run of free cells and no corner appears at which
     /// a path may bend. Returns whether the interval holds the goal.
     #[inline]
-    pub(super) fn advance(&mut self, goal: Vertex) -> bool {
+    pub(super) fn advance(&mut self, goal: &Goal) -> bool {
         loop {
-            if !self.is_turning() && self.cross_free_rows(goal.y) && self.holds(goal) {
+            if !self.is_turning() && self.cross_free_rows(self.stop) && self.holds(goal) {
                 return true;
             }
             let (left, right) = (self.left.end.next(), self.right.end.next());
@@ -213,7 +216,8 @@ impl<'g> Cone<'g> {
         let splits = end < last && ahead.first_free(end, last) < last;
         // A left obstacle that ends right of the vertical through the root hides something, and so does a
         // right one that ends left.
-        let shades = inside > first && inside > self.root.x || end < last && end < self.root.x;
+        let shades = inside > first && Place::parts(inside) > self.root.x
+            || end < last && Place::parts(end) < self.root.x;
         let empties = left.floor() >= end || right.ceil() <= start;
         if splits || shades || empties {
             return None;
@@ -244,15 +248,15 @@ pub(super) struct Successor {
 impl Successor {
     /// Whether nothing lies behind the interval, and the goal does not lie in it.
     #[inline]
-    pub(super) fn is_cul_de_sac(self, cone: &Cone<'_>, goal: Vertex) -> bool {
+    pub(super) fn is_cul_de_sac(self, cone: &Cone<'_>, goal: &Goal) -> bool {
         let (left, right) = (self.left.here, self.right.here);
         let (behind, ahead) = (cone.ahead, cone.ahead.below(cone.down));
         let turns =
             |at: Crossing, outer: i32| at.is_vertex() && behind.is_blocked(outer) && !ahead.is_blocked(outer);
-        let holds_goal = cone.line + cone.down == goal.y && left.ceil() <= goal.x && goal.x <= right.floor();
+        let may_hold_goal = || cone.line + cone.down == cone.stop && goal.may_be_in(left, right);
         ahead.first_free(left.floor(), right.ceil()) == right.ceil()
             && !turns(left, left.floor() - 1)
             && !turns(right, right.floor())
-            && !holds_goal
+            && !may_hold_goal()
     }
 }

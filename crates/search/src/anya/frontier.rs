@@ -2,7 +2,10 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use mediant_grid::{Corners, FreeSpace, Vertex, sight::Ray};
+use mediant_grid::{
+    Corners, FreeSpace, Vertex,
+    sight::{Place, Ray},
+};
 
 use super::{history::RootHistory, norm::Norm};
 use crate::path::Path;
@@ -10,7 +13,7 @@ use crate::path::Path;
 /// The start, or a vertex at which paths turn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Root<L> {
-    pub(super) at: Vertex,
+    pub(super) at: Place,
     /// The length of the best known path to it.
     pub(super) g: L,
     /// The number of the root before it; its own for the start.
@@ -22,13 +25,28 @@ pub(super) struct Root<L> {
 /// A search node: the part of a line that a root sees.
 ///
 /// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex
-/// at which a path may turn on the root's own line; `left.dx` is its distance to the right.
+/// at which a path may turn on the root's own line; `left.dx` is its distance to the right, in parts of a cell.
+/// A node on line [`FINAL`](Self::FINAL) is the goal, between vertices, seen by a root at its row of cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,
     pub(super) line: i32,
     pub(super) left: Ray,
     pub(super) right: Ray,
+}
+
+impl Node {
+    /// Stands for a line in a node of the goal.
+    const FINAL: i32 = i32::MIN;
+
+    /// The goal, seen by a root.
+    pub(super) const fn of_goal(root: u32) -> Self {
+        Self { root, line: Self::FINAL, left: Ray::VERTICAL, right: Ray::VERTICAL }
+    }
+
+    pub(super) const fn is_of_goal(self) -> bool {
+        self.line == Self::FINAL
+    }
 }
 
 /// The roots and nodes of a search, with its open list. The next [`start`](Self::start) clears it and keeps
@@ -44,7 +62,7 @@ pub(super) struct Frontier<N: Norm> {
     /// heap is put in order once for both.
     is_taken: bool,
     /// Scratch memory for a path: its bends, the goal first, and its waypoints.
-    bends: Vec<Vertex>,
+    bends: Vec<Place>,
     waypoints: Vec<Vertex>,
 }
 
@@ -105,13 +123,15 @@ impl<N: Norm> Frontier<N> {
         self.is_taken = false;
     }
 
-    /// Forgets the last search, in constant time (but for one call in 2³²), and makes a vertex the first
+    /// Forgets the last search, in constant time (but for one call in 2³²), and makes the start the first
     /// root, number 0.
-    pub(super) fn start(&mut self, at: Vertex) {
+    pub(super) fn start(&mut self, at: Place) {
         self.forget();
         self.history.clear();
         self.roots.push(Root { at, g: N::ZERO, parent: 0, is_current: true });
-        self.history.set(at, 0);
+        if let Some(at) = at.vertex() {
+            self.history.set(at, 0);
+        }
     }
 
     /// The root with this number.
@@ -120,9 +140,10 @@ impl<N: Norm> Frontier<N> {
         self.roots[number as usize]
     }
 
-    /// The vertex of the root before it; `None` for the start.
+    /// The vertex of the root before it; `None` for the start. A start between vertices stands for the nearest
+    /// one above and to the left.
     pub(super) fn parent(&self, number: u32) -> Option<Vertex> {
-        (number != 0).then(|| self.root(self.root(number).parent).at)
+        (number != 0).then(|| self.root(self.root(number).parent).at.floor())
     }
 
     /// Makes a vertex that another root sees a root, and returns its number; `None` if another path to it is
@@ -130,8 +151,8 @@ impl<N: Norm> Frontier<N> {
     /// they are taut by it too, and so among its nodes.)
     #[inline]
     pub(super) fn add_root(&mut self, parent: u32, at: Vertex) -> Option<u32> {
-        let from = self.root(parent);
-        let g = from.g + self.norm.length(from.at.to(at));
+        let (from, place) = (self.root(parent), Place::of(at));
+        let g = from.g + self.norm.length(from.at.to(place));
         let (best, slot) = self.history.slot(at);
         if let Some(best) = best {
             let known = &mut self.roots[best as usize];
@@ -142,7 +163,7 @@ impl<N: Norm> Frontier<N> {
         }
         let number = self.roots.len() as u32;
         *slot = number;
-        self.roots.push(Root { at, g, parent, is_current: true });
+        self.roots.push(Root { at: place, g, parent, is_current: true });
         Some(number)
     }
 
@@ -187,12 +208,12 @@ impl<N: Norm> Frontier<N> {
         let best = self.history.get(at)?;
         Some(match best {
             0 => Path::new(vec![at]),
-            _ => self.path(space, self.root(best).parent, at),
+            _ => self.path(space, self.root(best).parent, Place::of(at)),
         })
     }
 
     /// The path to the goal by a root that sees it. Allocates nothing but its waypoints.
-    pub(super) fn path(&mut self, space: &FreeSpace<Corners>, last: u32, goal: Vertex) -> Path {
+    pub(super) fn path(&mut self, space: &FreeSpace<Corners>, last: u32, goal: Place) -> Path {
         let Self { roots, bends, waypoints, norm, .. } = self;
         bends.clear();
         waypoints.clear();
@@ -207,7 +228,10 @@ impl<N: Norm> Frontier<N> {
             }
             bends.push(at);
         }
-        norm.waypoints(space, bends, waypoints);
+        if bends.iter().any(|at| at.vertex().is_none()) {
+            return Path::through(bends.iter().rev().copied());
+        }
+        norm.waypoints(space, bends.iter().rev().map(|at| at.floor()), waypoints);
         Path::new(waypoints.clone())
     }
 }

@@ -59,8 +59,13 @@
 //! the paper, no path turns at one, and flat nodes end there. A start or goal that is a gap is left or
 //! entered through the quadrant of its own cell.
 //!
-//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two vertices of
-//! the map, meets a line. Its floor, its ceiling, and whether it is a vertex are computed exactly; no two
+//! **Ends anywhere.** At any angle start and goal may be places between vertices, in 1/1024 of a cell. The
+//! start's row of cells is crossed like any other. A goal between vertices lies on no line: a root sees it
+//! through the interval before the row of cells that it touches, or from that row's border (module `goal`).
+//! Then its node's f is exact, as where an interval holds the goal.
+//!
+//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two places of the
+//! map of which one is a vertex, meets a line. Its floor, its ceiling, and whether it is a vertex are computed exactly; no two
 //! ends are ever compared within a tolerance. The proof, also that nothing overflows on the largest map, is
 //! in [`mediant_grid::sight`]. At any angle lengths are sums of square roots, in `f64`; over N(k) integers.
 //!
@@ -76,6 +81,7 @@
 mod cone;
 mod dead_ends;
 mod frontier;
+mod goal;
 mod history;
 mod norm;
 mod planner;

@@ -2,7 +2,7 @@
 
 use std::{fmt::Debug, ops::Add};
 
-use mediant_grid::{Corners, FreeSpace, Vector, Vertex};
+use mediant_grid::{Corners, FreeSpace, Vector, Vertex, sight::Place};
 use mediant_moves::{Cost, CostTable, FiniteK, K};
 
 use crate::line_path::follow_line;
@@ -25,11 +25,11 @@ pub trait Norm: Clone + Debug + sealed::Sealed {
     #[doc(hidden)]
     fn k(&self) -> K;
 
-    /// The length of a segment.
+    /// The length of a segment, whose displacement is in parts of a cell.
     #[doc(hidden)]
     fn length(&self, v: Vector) -> Self::Length;
 
-    /// The least length of a path with this displacement.
+    /// The least length of a path with this displacement, in parts of a cell.
     #[doc(hidden)]
     fn bound(&self, v: Vector) -> Self::Bound;
 
@@ -37,7 +37,7 @@ pub trait Norm: Clone + Debug + sealed::Sealed {
     /// where that lies on the root's side of the line (Harabor et al. 2016, Section 4.3). No interval that is
     /// reached through this one has less.
     #[doc(hidden)]
-    fn bound_through(&self, interval: Interval, goal: Vertex) -> Self::Bound;
+    fn bound_through(&self, interval: Interval, goal: Place) -> Self::Bound;
 
     /// f = g + h, and what is compared where that is equal, as integers in the same order.
     #[doc(hidden)]
@@ -51,9 +51,14 @@ pub trait Norm: Clone + Debug + sealed::Sealed {
     #[doc(hidden)]
     fn cost(g: Self::Length) -> Cost;
 
-    /// Writes the waypoints of the path with these bends, the goal first.
+    /// Writes the waypoints of the path with these bends.
     #[doc(hidden)]
-    fn waypoints(&self, space: &FreeSpace<Corners>, bends: &[Vertex], waypoints: &mut Vec<Vertex>);
+    fn waypoints(
+        &self,
+        space: &FreeSpace<Corners>,
+        bends: impl Iterator<Item = Vertex>,
+        waypoints: &mut Vec<Vertex>,
+    );
 }
 
 mod sealed {
@@ -64,7 +69,7 @@ mod sealed {
 #[derive(Clone, Copy, Debug)]
 #[doc(hidden)]
 pub struct Interval {
-    pub(super) root: Vertex,
+    pub(super) root: Place,
     pub(super) line: i32,
     /// Its left end, rounded.
     pub(super) left: f64,
@@ -72,16 +77,31 @@ pub struct Interval {
     pub(super) right: f64,
 }
 
+/// The coordinates of a place in cells, exactly.
+#[inline]
+fn cells(Place { x, y }: Place) -> [f64; 2] {
+    [x, y].map(|parts| f64::from(parts) * PART)
+}
+
+/// A part of a cell, in cells.
+const PART: f64 = 1.0 / Place::parts(1) as f64;
+
+/// A displacement between two vertices, in cells.
+#[inline]
+const fn whole(v: Vector) -> Vector {
+    Vector::new(v.x >> Place::PLACES, v.y >> Place::PLACES)
+}
+
 impl Interval {
     /// Where a shortest path to the goal crosses the interval, in columns, and whether it goes straight on
     /// there. In every norm no place on the line is better than on the straight way from the root to the goal
     /// (or its mirror image); and since norms are convex, places nearer to that are no worse than others.
     #[inline]
-    fn crossing(&self, goal: Vertex) -> (f64, bool) {
-        let (x, y) = (f64::from(self.root.x), f64::from(self.root.y));
+    fn crossing(&self, goal: Place) -> (f64, bool) {
+        let ([x, y], [goal_x, goal_y]) = (cells(self.root), cells(goal));
         let line = f64::from(self.line);
-        let (away, beyond) = ((line - y).abs(), (f64::from(goal.y) - line).abs());
-        let straight = x + (f64::from(goal.x) - x) * away / (away + beyond);
+        let (away, beyond) = ((line - y).abs(), (goal_y - line).abs());
+        let straight = x + (goal_x - x) * away / (away + beyond);
         let through = straight.max(self.left).min(self.right);
         (through, through == straight)
     }
@@ -106,19 +126,19 @@ impl Norm for EuclideanNorm {
 
     #[inline]
     fn length(&self, v: Vector) -> f64 {
-        v.norm()
+        v.norm() * PART
     }
 
     #[inline]
     fn bound(&self, v: Vector) -> f64 {
-        v.norm()
+        v.norm() * PART
     }
 
     #[inline]
-    fn bound_through(&self, interval: Interval, goal: Vertex) -> f64 {
-        let (x, y) = (f64::from(interval.root.x), f64::from(interval.root.y));
-        let (goal_x, line) = (f64::from(goal.x), f64::from(interval.line));
-        let (away, beyond) = ((line - y).abs(), (f64::from(goal.y) - line).abs());
+    fn bound_through(&self, interval: Interval, goal: Place) -> f64 {
+        let ([x, y], [goal_x, goal_y]) = (cells(interval.root), cells(goal));
+        let line = f64::from(interval.line);
+        let (away, beyond) = ((line - y).abs(), (goal_y - line).abs());
         let length = |dx: f64, dy: f64| (dx * dx + dy * dy).sqrt();
         match interval.crossing(goal) {
             (_, true) => length(goal_x - x, away + beyond),
@@ -142,8 +162,13 @@ impl Norm for EuclideanNorm {
         Cost::from_bits((g * ONE) as u64)
     }
 
-    fn waypoints(&self, _: &FreeSpace<Corners>, bends: &[Vertex], waypoints: &mut Vec<Vertex>) {
-        waypoints.extend(bends.iter().rev());
+    fn waypoints(
+        &self,
+        _: &FreeSpace<Corners>,
+        bends: impl Iterator<Item = Vertex>,
+        waypoints: &mut Vec<Vertex>,
+    ) {
+        waypoints.extend(bends);
     }
 }
 
@@ -220,19 +245,20 @@ impl Norm for LatticeNorm {
 
     #[inline]
     fn length(&self, v: Vector) -> LatticeLength {
+        let v = whole(v);
         LatticeLength { cost: self.costs.distance(v), line: line(v) }
     }
 
     #[inline]
     fn bound(&self, v: Vector) -> LatticeBound {
-        LatticeBound { cost: self.costs.distance(v), line: v.norm() }
+        LatticeBound { cost: self.costs.distance(whole(v)), line: v.norm() * PART }
     }
 
     #[inline]
-    fn bound_through(&self, interval: Interval, goal: Vertex) -> LatticeBound {
-        let Interval { root, line, .. } = interval;
-        let (away, beyond) = ((line - root.y).abs(), (goal.y - line).abs());
-        let least = self.costs.distance(Vector::new(goal.x - root.x, away + beyond));
+    fn bound_through(&self, interval: Interval, goal: Place) -> LatticeBound {
+        let (root, to, line) = (interval.root.floor(), goal.floor(), interval.line);
+        let (away, beyond) = ((line - root.y).abs(), (to.y - line).abs());
+        let least = self.costs.distance(Vector::new(to.x - root.x, away + beyond));
         let (through, is_straight) = interval.crossing(goal);
         let line = EuclideanNorm.bound_through(interval, goal);
         if is_straight {
@@ -241,7 +267,7 @@ impl Norm for LatticeNorm {
         // The crossing is off by less than 2⁻³⁵ cells, and the two distances by less than 2⁻³⁴ each: together
         // by less than the 2⁻³² that is taken off, so the bound stays below the truth. `least` keeps ties.
         let length = self.costs.distance_f64(through - f64::from(root.x), f64::from(away))
-            + self.costs.distance_f64(f64::from(goal.x) - through, f64::from(beyond));
+            + self.costs.distance_f64(f64::from(to.x) - through, f64::from(beyond));
         LatticeBound { cost: least.max(Cost::from_bits((length * ONE - 1.0) as u64)), line }
     }
 
@@ -263,8 +289,13 @@ impl Norm for LatticeNorm {
         g.cost
     }
 
-    fn waypoints(&self, space: &FreeSpace<Corners>, bends: &[Vertex], waypoints: &mut Vec<Vertex>) {
-        bends.iter().rev().for_each(|&at| follow_line(waypoints, space, self.k, at));
+    fn waypoints(
+        &self,
+        space: &FreeSpace<Corners>,
+        bends: impl Iterator<Item = Vertex>,
+        waypoints: &mut Vec<Vertex>,
+    ) {
+        bends.for_each(|at| follow_line(waypoints, space, self.k, at));
     }
 }
 
@@ -314,14 +345,15 @@ mod tests {
             };
             let least = (first..=last).map(through).min().expect("the interval has a first column");
             let [left, right] = [first, last].map(|column| f64::from(column) / 8.0);
-            let interval = Interval { root, line, left, right };
+            let (goal_x, goal) = (goal.x, Place::of(goal));
+            let interval = Interval { root: Place::of(root), line, left, right };
             let bound = 8 * norm.bound_through(interval, goal).cost.to_bits();
             let case = (k, interval, goal);
             assert!(bound <= least, "{bound} is above {least}: {case:?}");
             if interval.crossing(goal).1 {
                 straight += 1;
-                let whole = Vector::new(goal.x - root.x, away + beyond);
-                assert_eq!(bound, 8 * norm.costs.distance(whole).to_bits(), "{case:?}");
+                let straight = Vector::new(goal_x - root.x, away + beyond);
+                assert_eq!(bound, 8 * norm.costs.distance(straight).to_bits(), "{case:?}");
             } else {
                 assert!(least - bound <= 8 * 2, "{bound} is far below {least}: {case:?}");
             }

@@ -2,13 +2,16 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{BitMatrix, Corners, FreeSpace, Identity, Mismatch, Vertex, cost_table};
-use mediant_moves::{FiniteK, KError};
+use mediant_grid::{
+    BitMatrix, Corners, FreeSpace, Identity, Mismatch, Point, Vertex, cost_table, sight::Place,
+};
+use mediant_moves::{FiniteK, K, KError};
 
 use super::{
     cone::Successor,
     dead_ends::{DeadEnds, Opened},
     frontier::Frontier,
+    goal::Goal,
     history::RootHistory,
     norm::{EuclideanNorm, LatticeNorm, Norm},
     search::AnyaSearch,
@@ -18,7 +21,7 @@ use crate::{
     observer::{NodeEvent, Observer},
     path::Path,
     planner::{Planner, SearchStatus},
-    query::{Ends, QueryError},
+    query::{Ends, PointEnds, QueryError},
 };
 
 /// Anya on a map: shortest paths at any angle ([`new`](Self::new)), or over N(k) ([`over`](Self::over)).
@@ -58,7 +61,7 @@ pub struct Anya<S, N: Norm = EuclideanNorm> {
     frontier: Frontier<N>,
     /// The successors of the node under expansion.
     next: Vec<Successor>,
-    goal: Vertex,
+    goal: Goal,
     /// The last root of the path to the goal, once that is found.
     last: Option<u32>,
     status: SearchStatus,
@@ -93,7 +96,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> Anya<S, LatticeNorm> {
 impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
     fn with_norm(space: S, norm: N) -> Self {
         let frontier = Frontier::new(norm, space.grid().width() + 1, space.grid().height() + 1);
-        let (goal, status) = (Vertex::new(0, 0), SearchStatus::default());
+        let (goal, status) = (Goal::NONE, SearchStatus::default());
         Self { space, opened: None, frontier, next: Vec::new(), goal, last: None, status }
     }
 
@@ -167,31 +170,62 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
             let root = search.frontier.root(node.root);
             let parent = search.frontier.parent(node.root);
             let (g, f) = (N::cost(root.g), N::cost_of_priority(f));
-            search.observer.expanded(NodeEvent { at: root.at, parent, g, f });
-            search.observer.reached(root.at, g);
+            search.observer.expanded(NodeEvent { at: root.at.floor(), parent, g, f });
+            if let Some(at) = root.at.vertex() {
+                search.observer.reached(at, g);
+            }
             search.expand(node);
         }
+    }
+}
+
+impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Anya<S, N> {
+    /// Begins a search between two free places of the map; `connected` says whether there is a way.
+    fn begin_between(
+        &mut self,
+        [start, goal]: [Place; 2],
+        connected: bool,
+        observer: &mut impl Observer,
+    ) -> SearchStatus {
+        let Self { space, opened, frontier, next, .. } = self;
+        (self.goal, self.last, self.status) = (Goal::NONE, None, SearchStatus::Unreachable);
+        if connected && start == goal {
+            frontier.start(start);
+            self.goal = Goal::reached(goal);
+            (self.last, self.status) = (Some(0), SearchStatus::Found);
+        } else if connected {
+            if let Some(opened) = opened {
+                opened.open(space.grid(), [start, goal]);
+            }
+            let rows = Self::rows(space, opened.as_ref());
+            self.goal = Goal::new(space, rows, goal);
+            AnyaSearch { space, rows, frontier, goal: self.goal, observer, next }.start(start);
+            self.status = SearchStatus::Searching;
+        }
+        self.status
     }
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
     fn begin(&mut self, query: Ends, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         self.status = SearchStatus::Unreachable;
-        let ends = query.ids(&self.space)?;
-        (self.goal, self.last) = (query.goal, None);
-        let Self { space, opened, frontier, next, goal, .. } = self;
-        if ends.is_some() && query.start == query.goal {
-            frontier.start(query.start);
-            self.status = SearchStatus::Found;
-        } else if ends.is_some() {
-            if let Some(opened) = opened {
-                opened.open(space.grid(), [query.start, query.goal]);
-            }
-            let rows = Self::rows(space, opened.as_ref());
-            AnyaSearch { space, rows, frontier, goal: *goal, observer, next }.start(query.start);
-            self.status = SearchStatus::Searching;
+        let connected = query.ids(&self.space)?.is_some();
+        Ok(self.begin_between([query.start, query.goal].map(Place::of), connected, observer))
+    }
+
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        if self.frontier.norm().k() != K::Any {
+            return None;
         }
-        Ok(self.status)
+        self.status = SearchStatus::Unreachable;
+        Some(ends.places(&self.space).map(|places| {
+            let connected = self.space.points_connected(ends.start, ends.goal);
+            self.begin_between(places, connected, observer)
+        }))
     }
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
@@ -202,10 +236,16 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        match self.last.filter(|_| at == self.goal) {
-            Some(root) => Some(self.frontier.path(&self.space, root, at)),
+        self.path_to_point(at.into())
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        let place = self.space.place(at)?;
+        match self.last.filter(|_| place == self.goal.at) {
+            Some(_) if self.frontier.root(0).at == place => Some(Path::through([at])),
+            Some(root) => Some(self.frontier.path(&self.space, root, place)),
             None if self.status == SearchStatus::Unreachable => None,
-            None => self.frontier.path_to_root(&self.space, at),
+            None => self.frontier.path_to_root(&self.space, at.vertex()?),
         }
     }
 

@@ -2,12 +2,13 @@
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Vertex,
-    sight::{IntervalEnd, Ray, Runs, Side, Window, row_ahead},
+    sight::{IntervalEnd, Place, Ray, Runs, Side, Window, row_ahead},
 };
 
 use super::{
     cone::{Cone, Successor},
     frontier::{Frontier, Node},
+    goal::Goal,
     norm::{Interval, Norm},
 };
 use crate::observer::{NodeEvent, Observer};
@@ -18,7 +19,7 @@ pub(super) struct AnyaSearch<'s, N: Norm, O> {
     /// The rows of the map, of which dead ends may be left out.
     pub(super) rows: &'s BitMatrix,
     pub(super) frontier: &'s mut Frontier<N>,
-    pub(super) goal: Vertex,
+    pub(super) goal: Goal,
     pub(super) observer: &'s mut O,
     /// Scratch memory for the successors of one node.
     pub(super) next: &'s mut Vec<Successor>,
@@ -26,60 +27,78 @@ pub(super) struct AnyaSearch<'s, N: Norm, O> {
 
 impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     /// Forgets the last search and queues the nodes that the start sees.
-    pub(super) fn start(&mut self, at: Vertex) {
+    pub(super) fn start(&mut self, at: Place) {
         self.frontier.start(at);
         // From a closed gap a path leaves into the quadrant of the vertex's own cell.
-        let gap = self.space.is_closed_gap(at);
+        let gap = at.vertex().is_some_and(|at| self.space.is_closed_gap(at));
         for down in [1, -1] {
             if gap && down < 0 {
                 continue;
             }
-            let strip = row_ahead(self.rows, at.y, down);
-            let first = if gap { at.x } else { strip.run_start(at.x, 0) };
-            let end = strip.first_blocked(at.x, i32::MAX);
+            let line = at.line(down);
+            let (start, end) = at.run(row_ahead(self.rows, line, down));
+            let first = if gap { at.columns().0 } else { start };
             if first < end {
-                let [left, right] = [first, end].map(|x| Ray { dx: x - at.x, dy: 1 });
-                self.push(Node { root: 0, line: at.y + down, left, right });
+                self.see_goal(0, (line, down), first);
+                let away = (Place::parts(line + down) - at.y) * down;
+                let [left, right] = [first, end].map(|x| Ray::through(x, at.x, away));
+                self.push(Node { root: 0, line: line + down, left, right });
             }
         }
-        for right in [1, -1] {
+        if at.line(1) != at.line(-1) {
+            return;
+        }
+        let (before, after) = at.columns();
+        for (right, x) in [(1, before), (-1, after)] {
             if !gap || right > 0 {
-                self.push_flat(0, at, right);
+                self.push_flat(0, Vertex::new(x, at.line(1)), right);
             }
+        }
+    }
+
+    /// Queues the goal, if a root sees it through the row of cells beyond its line, of which it touches the
+    /// cell in a column.
+    #[inline]
+    fn see_goal(&mut self, root: u32, row: (i32, i32), column: i32) {
+        if self.goal.is_beside(row, column) {
+            let to = self.frontier.root(root).at.to(self.goal.at);
+            self.add(Node::of_goal(root), self.frontier.norm().bound(to));
         }
     }
 
     /// Whether the node holds the goal, and a path from its root may end there.
     pub(super) fn reaches_goal(&self, node: Node) -> bool {
         let root = self.frontier.root(node.root).at;
-        let found = if node.line == root.y {
-            self.goal == Vertex::new(root.x + node.left.dx, root.y)
+        let found = if node.is_of_goal() {
+            true
+        } else if Place::parts(node.line) == root.y {
+            self.goal.at == Place { x: root.x + node.left.dx, y: root.y }
         } else {
-            node.line == self.goal.y && Cone::new(self.rows, root, node).holds(self.goal)
+            Cone::new(self.rows, root, node, &self.goal).holds(&self.goal)
         };
-        found && self.space.may_turn(Some(root), self.goal, None)
+        found && self.goal.may_be_entered(self.space, root)
     }
 
     /// Puts the successors of a node on the open list.
     pub(super) fn expand(&mut self, node: Node) {
         let root = self.frontier.root(node.root).at;
-        if node.line == root.y {
+        if Place::parts(node.line) == root.y {
             return self.expand_flat(node, root);
         }
-        let mut cone = Cone::new(self.rows, root, node);
+        let mut cone = Cone::new(self.rows, root, node, &self.goal);
         loop {
             self.next.clear();
-            if cone.advance(self.goal) {
+            if cone.advance(&self.goal) {
                 self.push(cone.node());
                 break;
             }
             self.cross_row(&cone);
             if self.next.len() > 1 {
-                self.next.retain(|next| !next.is_cul_de_sac(&cone, self.goal));
+                self.next.retain(|next| !next.is_cul_de_sac(&cone, &self.goal));
             }
             if let [only] = self.next[..] {
                 cone = cone.next(self.frontier.root(only.root).at, only);
-                if !cone.holds(self.goal) {
+                if !cone.holds(&self.goal) {
                     continue;
                 }
                 self.push(cone.node());
@@ -96,10 +115,10 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     /// Puts a cone node on the open list.
     fn push(&mut self, node: Node) {
         let root = self.frontier.root(node.root);
-        let n = (node.line - root.at.y).abs();
+        let n = (Place::parts(node.line) - root.at.y).abs();
         let [left, right] = [node.left, node.right].map(|ray| ray.column(root.at.x, n));
         let interval = Interval { root: root.at, line: node.line, left, right };
-        self.add(node, self.frontier.norm().bound_through(interval, self.goal));
+        self.add(node, self.frontier.norm().bound_through(interval, self.goal.at));
     }
 
     /// Puts a node on the open list, with its h.
@@ -107,7 +126,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
         let f = self.frontier.push(node, h);
         let root = self.frontier.root(node.root);
         let (parent, f) = (self.frontier.parent(node.root), N::cost_of_priority(f));
-        self.observer.generated(NodeEvent { at: root.at, parent, g: N::cost(root.g), f });
+        self.observer.generated(NodeEvent { at: root.at.floor(), parent, g: N::cost(root.g), f });
     }
 
     /// Queues the flat node at the next vertex beyond `from`, on the line of a root, at which a path may turn
@@ -135,25 +154,25 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             }
             passed += 64;
         };
-        let to_goal = (self.goal.x - from.x) * right;
-        let is_goal = self.goal.y == from.y && 0 < to_goal && to_goal <= steps;
+        let (goal, from) = (self.goal.at, Place::of(from));
+        let to_goal = (goal.x - from.x) * right;
+        let is_goal = goal.y == from.y && 0 < to_goal && to_goal <= Place::parts(steps);
         if dead && !is_goal {
             return;
         }
-        let x = from.x + right * if is_goal { to_goal } else { steps };
+        let at = if is_goal { goal } else { Place { x: from.x + right * Place::parts(steps), ..from } };
         let start = self.frontier.root(root);
-        let dx = x - start.at.x;
-        let (norm, at) = (self.frontier.norm(), Vertex::new(x, from.y));
-        let h = norm.bound(start.at.to(at)) + norm.bound(at.to(self.goal));
-        let left = Ray { dx, dy: 1 };
-        self.add(Node { root, line: from.y, left, right: left }, h);
+        let norm = self.frontier.norm();
+        let h = norm.bound(start.at.to(at)) + norm.bound(at.to(goal));
+        let left = Ray { dx: at.x - start.at.x, dy: 1 };
+        self.add(Node { root, line: at.floor().y, left, right: left }, h);
     }
 
     /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
     /// on the line.
-    fn expand_flat(&mut self, node: Node, root: Vertex) {
+    fn expand_flat(&mut self, node: Node, root: Place) {
         let right = node.left.dx.signum();
-        let at = Vertex::new(root.x + node.left.dx, root.y);
+        let at = Place { x: root.x + node.left.dx, ..root }.floor();
         let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
         // The goal, at which this path may not end. No path passes a closed gap.
         if self.space.is_closed_gap(at) {
@@ -166,6 +185,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             }
             let Some(number) = self.frontier.add_root(node.root, at) else { continue };
             let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
+            self.see_goal(number, (at.y, down), entered);
             let far = Ray { dx: far - at.x, dy: 1 };
             let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
             self.push(Node { root: number, line: at.y + down, left, right });
@@ -227,7 +247,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     fn turn_at_end(&mut self, cone: &Cone<'_>, end: IntervalEnd, side: Side) {
         let ahead = cone.ahead;
         let x = end.here.floor();
-        let (_, inner) = side.columns(x);
+        let (outer, inner) = side.columns(x);
         let at = Vertex::new(x, cone.line);
         let is_closed_gap = ahead.is_blocked(inner);
         if is_closed_gap && self.space.is_closed_gap(at) {
@@ -241,6 +261,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
         // Between two obstacles everything is hidden.
         let end = if is_closed_gap { IntervalEnd::standing(x) } else { end };
         let Some(number) = self.frontier.add_root(cone.number, at) else { return };
+        self.see_goal(number, (cone.line, cone.down), outer);
         if side.is_inside(end.next(), far) {
             self.add_behind(number, x, side, (far, limit), end);
         }
@@ -270,7 +291,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             self.add_hidden(cone, stop, Side::Right, start, right);
         }
         if (next_left.floor() < stop) & (next_right.ceil() > start) {
-            let clipped = |x: i32| IntervalEnd::corner(x, cone.root.x, cone.distance() + 1);
+            let clipped = |x: i32| IntervalEnd::corner(x, cone.root.x, cone.distance() + Place::parts(1));
             let is_wall = Side::Left.is_outside(next_left, start);
             let left = if is_wall { clipped(start) } else { left.moved_to(next_left) };
             let is_wall = Side::Right.is_outside(next_right, stop);
@@ -285,6 +306,8 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
         if side.is_inside(end.next(), x) {
             let at = Vertex::new(x, cone.line);
             let Some(root) = self.frontier.add_root(cone.number, at) else { return };
+            let (_, inner) = side.columns(x);
+            self.see_goal(root, (cone.line, cone.down), inner);
             self.add_behind(root, x, side, (x, limit), end);
         }
     }
@@ -294,7 +317,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     #[inline]
     fn add_behind(&mut self, root: u32, x: i32, side: Side, (far, limit): (i32, i32), end: IntervalEnd) {
         let next = end.next();
-        let to = |column: i32| IntervalEnd::corner(column, x, 1);
+        let to = |column: i32| IntervalEnd::corner(column, Place::parts(x), Place::parts(1));
         let near = if side.is_inside(next, limit) { to(limit) } else { end.moved_to(next) };
         let (left, right) = match side {
             Side::Left => (to(far), near),

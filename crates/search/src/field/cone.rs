@@ -2,7 +2,7 @@
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Interrupt, Interrupted, Vertex, VertexId,
-    sight::{Crossing, IntervalEnd, Ray, Side, row_ahead},
+    sight::{Crossing, IntervalEnd, Place, Ray, Side, row_ahead},
 };
 
 /// A source, or a corner of an obstacle at which paths bend.
@@ -138,8 +138,9 @@ impl Labels<'_> {
     ) -> Result<(), Interrupted> {
         let at = root.at;
         let ahead = row_ahead(self.space.grid().rows(), at.y, down);
-        let on_line = |ray| IntervalEnd::new(ray, at.x, 1);
-        let corner = |x| IntervalEnd::corner(x, at.x, 1);
+        let (from, away) = (Place::of(at).x, Place::parts(1));
+        let on_line = |ray| IntervalEnd::new(ray, from, away);
+        let corner = |x| IntervalEnd::corner(x, from, away);
         // A ray that leads to the right leaves the vertex through the cell on its right.
         let looks = |cell: i32| !ahead.is_blocked(cell);
         let goes_left = left.is_none_or(|ray| ray.dx < 0) && looks(at.x - 1);
@@ -187,7 +188,7 @@ impl Labels<'_> {
             }
         }
         let (low, high) = alive?;
-        let corner = |x| IntervalEnd::corner(x, root.at.x, n);
+        let corner = |x| IntervalEnd::corner(x, Place::of(root.at).x, Place::parts(n));
         let left = if low > first { corner(low - 1) } else { piece.left };
         let right = if high < last { corner(high + 1) } else { piece.right };
         Some(Piece { left, right, ..piece })
@@ -198,7 +199,7 @@ impl Labels<'_> {
     fn cross_row(&mut self, root: Root, down: i32, Piece { line, left, right }: Piece) {
         let n = (line - root.at.y) * down;
         let ahead = row_ahead(self.space.grid().rows(), line, down);
-        let corner = |x: i32, n: i32| IntervalEnd::corner(x, root.at.x, n);
+        let corner = |x: i32, n: i32| IntervalEnd::corner(x, Place::of(root.at).x, Place::parts(n));
         let (first, last) = (left.here.floor(), right.here.ceil());
         let (low, high) = (left.next().floor().min(first), right.next().ceil().max(last));
         let mut column = first;
@@ -226,6 +227,5 @@ impl Labels<'_> {
 
 /// Whether an interval has a length.
 fn widens(left: IntervalEnd, right: IntervalEnd) -> bool {
-    let (l, r) = (left.ray, right.ray);
-    i64::from(l.dx) * i64::from(r.dy) < i64::from(r.dx) * i64::from(l.dy)
+    right.ray.is_right_of(left.ray)
 }

@@ -1,6 +1,6 @@
 //! The effect of a change of the map on a path.
 
-use mediant_grid::{Change, FreeSpace, Placement, PlacementKind, Rectangle, Vertex};
+use mediant_grid::{Change, FreeSpace, Placement, PlacementKind, Point, Rectangle, Vertex};
 
 use super::{BrokenPath, Path};
 
@@ -34,6 +34,9 @@ impl Path {
 
     /// Whether the path does not hold any more, if it held before these cells changed.
     fn may_break<P: Placement>(&self, space: &FreeSpace<P>, cells: &[Rectangle]) -> bool {
+        if self.points.is_some() {
+            return self.check(space).is_err();
+        }
         let mut near = cells.iter().map(Near::of);
         let Some(first) = near.next() else { return false };
         // Most segments are near none of them.
@@ -71,7 +74,7 @@ impl Path {
     /// ```
     #[must_use]
     pub fn least_by_freed<P: Placement>(&self, change: &Change) -> f64 {
-        let (Some(&start), Some(&goal)) = (self.waypoints.first(), self.waypoints.last()) else {
+        let (Some(start), Some(goal)) = (self.start(), self.goal()) else {
             return f64::INFINITY;
         };
         let (before, after) = (change.before(), change.after());
@@ -80,12 +83,12 @@ impl Path {
         }
         // The corner of cell (0, 0), in the coordinates of vertices.
         let corner = if P::KIND == PlacementKind::Center { -0.5 } else { 0.0 };
-        let distance = |at: Vertex, &Rectangle { x, y, width, height }: &Rectangle| {
-            let beyond = |at: i32, first: u32, length: u32| {
-                let (at, first) = (f64::from(at), f64::from(first) + corner);
+        let distance = |at: Point, &Rectangle { x, y, width, height }: &Rectangle| {
+            let beyond = |at: f64, first: u32, length: u32| {
+                let first = f64::from(first) + corner;
                 (first - at).max(at - first - f64::from(length)).max(0.0)
             };
-            beyond(at.x, x, width).hypot(beyond(at.y, y, height))
+            beyond(at.x(), x, width).hypot(beyond(at.y(), y, height))
         };
         // A cell that was blocked can end a closed gap, at which a path starts then.
         let frees = |&Rectangle { x, y, width, height }: &Rectangle| {

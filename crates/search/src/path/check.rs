@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{FreeSpace, Obstruction, Placement, Vertex};
+use mediant_grid::{Corners, FreeSpace, Obstruction, Placement, Point};
 
 use super::Path;
 use crate::query::End;
@@ -20,7 +20,17 @@ pub enum BrokenPath {
         /// Which one, from 0.
         index: usize,
         /// The waypoint.
-        at: Vertex,
+        at: Point,
+        /// The number of waypoints up to which the path holds.
+        holds: usize,
+    },
+    /// A point is no vertex, on a map where all waypoints are: anywhere but at corners.
+    #[error("waypoint {index} of the path, {at}, lies between vertices: only paths at corners lead there")]
+    Between {
+        /// Which one, from 0.
+        index: usize,
+        /// The point.
+        at: Point,
         /// The number of waypoints up to which the path holds.
         holds: usize,
     },
@@ -30,7 +40,7 @@ pub enum BrokenPath {
         /// Which end.
         end: End,
         /// The vertex.
-        at: Vertex,
+        at: Point,
         /// The number of waypoints up to which the path holds: 0 where the start is blocked.
         holds: usize,
     },
@@ -40,9 +50,9 @@ pub enum BrokenPath {
         /// Which one, from 0: it begins at the waypoint of this number.
         index: usize,
         /// Where it begins.
-        from: Vertex,
+        from: Point,
         /// Where it ends.
-        to: Vertex,
+        to: Point,
         /// The first thing on it, from its start, that is in the way.
         by: Obstruction,
     },
@@ -52,16 +62,16 @@ pub enum BrokenPath {
         /// Which waypoint, from 0; the last one, where the path stands still there.
         index: usize,
         /// The waypoint.
-        at: Vertex,
+        at: Point,
         /// The waypoint before; `None` at the start.
-        before: Option<Vertex>,
+        before: Option<Point>,
         /// The waypoint after; `None` at the goal.
-        after: Option<Vertex>,
+        after: Option<Point>,
     },
 }
 
 /// A waypoint between its neighbors.
-struct Way(Option<Vertex>, Vertex, Option<Vertex>);
+struct Way(Option<Point>, Point, Option<Point>);
 
 impl fmt::Display for Way {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -82,7 +92,7 @@ impl BrokenPath {
     pub const fn holds_up_to(&self) -> usize {
         match self {
             Self::Empty => 0,
-            Self::Blocked { holds, .. } | Self::Outside { holds, .. } => *holds,
+            Self::Blocked { holds, .. } | Self::Between { holds, .. } | Self::Outside { holds, .. } => *holds,
             Self::Segment { index, .. } | Self::Gap { index, .. } => *index + 1,
         }
     }
@@ -121,61 +131,107 @@ impl Path {
     /// # Errors
     /// A [`BrokenPath`] for what is found first.
     pub fn check<P: Placement>(&self, space: &FreeSpace<P>) -> Result<(), BrokenPath> {
-        check(space, &self.waypoints)
+        check(space, self.points())
     }
 }
 
-/// [`Path::check`], for waypoints.
-pub(crate) fn check<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Result<(), BrokenPath> {
-    let (Some(&start), Some(&goal)) = (waypoints.first(), waypoints.last()) else {
+/// [`Path::check`], for points.
+pub(crate) fn check<P: Placement>(
+    space: &FreeSpace<P>,
+    points: impl ExactSizeIterator<Item = Point> + DoubleEndedIterator + Clone,
+) -> Result<(), BrokenPath> {
+    let map = Points { vertices: space, corners: P::at_corners(space) };
+    let (Some(start), Some(goal)) = (points.clone().next(), points.clone().next_back()) else {
         return Err(BrokenPath::Empty);
     };
-    if let Some((index, &at)) = waypoints.iter().enumerate().find(|&(_, &at)| space.id(at).is_none()) {
-        return Err(BrokenPath::Outside { index, at, holds: holds_up_to(space, &waypoints[..index]) });
+    let is_known = |at: Point| map.is_inside(at) == Some(true);
+    if let Some((index, at)) = points.clone().enumerate().find(|&(_, at)| !is_known(at)) {
+        let holds = map.holds_up_to(points.take(index));
+        return Err(match map.is_inside(at) {
+            Some(_) => BrokenPath::Outside { index, at, holds },
+            None => BrokenPath::Between { index, at, holds },
+        });
     }
     let ends = [(End::Start, start), (End::Goal, goal)];
-    if let Some((end, at)) = ends.into_iter().find(|&(_, at)| !space.is_free(at)) {
-        return Err(BrokenPath::Blocked { end, at, holds: holds_up_to(space, waypoints) });
+    if let Some((end, at)) = ends.into_iter().find(|&(_, at)| !map.is_free(at)) {
+        return Err(BrokenPath::Blocked { end, at, holds: map.holds_up_to(points) });
     }
     // A path that stays where it is does not leave any quadrant.
-    match follow(space, waypoints)? {
+    let last = points.len() - 1;
+    match map.follow(points)? {
         None => Ok(()),
-        before => turn(space, (before, goal, None), waypoints.len() - 1),
+        before => map.turn((before, goal, None), last),
     }
 }
 
-/// The number of waypoints, which are all on the map, to which a path can be followed that goes on from
-/// there.
-fn holds_up_to<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> usize {
-    match follow(space, waypoints) {
-        _ if waypoints.first().is_none_or(|&start| !space.is_free(start)) => 0,
-        Ok(_) => waypoints.len(),
-        Err(broken) => broken.holds_up_to(),
-    }
+/// A free space that is asked about vertices, and at corners about points between them, too.
+struct Points<'s, P: Placement> {
+    vertices: &'s FreeSpace<P>,
+    corners: Option<&'s FreeSpace<Corners>>,
 }
 
-/// Looks at one segment after another. Returns the last waypoint that differs from the end of the path. All
-/// waypoints are on the map, so that no difference of coordinates overflows.
-fn follow<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Result<Option<Vertex>, BrokenPath> {
-    let mut before = None;
-    for (ends, index) in waypoints.windows(2).zip(0..) {
-        let (from, to) = (ends[0], ends[1]);
-        if from == to {
-            continue;
+impl<P: Placement> Points<'_, P> {
+    /// Whether a point is on the map; `None` for one between vertices where there is none.
+    fn is_inside(&self, at: Point) -> Option<bool> {
+        match at.vertex() {
+            Some(at) => Some(self.vertices.id(at).is_some()),
+            None => Some(self.corners?.place(at).is_some()),
         }
-        turn(space, (before, from, Some(to)), index)?;
-        if let Some(by) = space.obstruction(from, to) {
-            return Err(BrokenPath::Segment { index, from, to, by });
-        }
-        before = Some(from);
     }
-    Ok(before)
-}
 
-fn turn<P: Placement>(
-    space: &FreeSpace<P>,
-    (before, at, after): (Option<Vertex>, Vertex, Option<Vertex>),
-    index: usize,
-) -> Result<(), BrokenPath> {
-    if space.may_turn(before, at, after) { Ok(()) } else { Err(BrokenPath::Gap { index, at, before, after }) }
+    fn is_free(&self, at: Point) -> bool {
+        match at.vertex() {
+            Some(at) => self.vertices.is_free(at),
+            None => self.corners.is_some_and(|corners| corners.point_is_free(at)),
+        }
+    }
+
+    fn obstruction(&self, from: Point, to: Point) -> Option<Obstruction> {
+        match (from.vertex().zip(to.vertex()), self.corners) {
+            (Some((from, to)), _) => self.vertices.obstruction(from, to),
+            (None, Some(corners)) => corners.point_obstruction(from, to),
+            (None, None) => Some(Obstruction::End { at: from }),
+        }
+    }
+
+    fn may_turn(&self, before: Option<Point>, at: Point, after: Option<Point>) -> bool {
+        self.corners.is_none_or(|corners| corners.may_turn_at(before, at, after))
+    }
+
+    /// The number of points, which are all on the map, to which a path can be followed that goes on from
+    /// there.
+    fn holds_up_to(&self, mut points: impl ExactSizeIterator<Item = Point> + Clone) -> usize {
+        let count = points.len();
+        match self.follow(points.clone()) {
+            _ if points.next().is_none_or(|start| !self.is_free(start)) => 0,
+            Ok(_) => count,
+            Err(broken) => broken.holds_up_to(),
+        }
+    }
+
+    /// Looks at one segment after another. Returns the last point that differs from the end of the path. All
+    /// points are on the map, so that no difference of coordinates overflows.
+    fn follow(&self, points: impl Iterator<Item = Point> + Clone) -> Result<Option<Point>, BrokenPath> {
+        let mut before = None;
+        for ((from, to), index) in points.clone().zip(points.skip(1)).zip(0..) {
+            if from == to {
+                continue;
+            }
+            self.turn((before, from, Some(to)), index)?;
+            if let Some(by) = self.obstruction(from, to) {
+                return Err(BrokenPath::Segment { index, from, to, by });
+            }
+            before = Some(from);
+        }
+        Ok(before)
+    }
+
+    fn turn(
+        &self,
+        (before, at, after): (Option<Point>, Point, Option<Point>),
+        index: usize,
+    ) -> Result<(), BrokenPath> {
+        let is_legal = self.may_turn(before, at, after);
+        if is_legal { Ok(()) } else { Err(BrokenPath::Gap { index, at, before, after }) }
+    }
 }

@@ -1,6 +1,6 @@
 //! Points, headings and turns along a path.
 
-use mediant_grid::Vertex;
+use mediant_grid::Point;
 
 use super::{Path, steps::Segment};
 
@@ -10,8 +10,8 @@ const SHORTEST_STEP: f64 = 1e-9;
 /// A bend of a path: see [`Path::turns`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn {
-    /// The waypoint at which the path bends.
-    pub at: Vertex,
+    /// The point at which the path bends.
+    pub at: Point,
     /// By how much, in radians, from −π to π and never 0: positive to the right, as seen on the map with y
     /// down, negative to the left. A path that turns back turns by π.
     pub angle: f64,
@@ -28,8 +28,9 @@ pub struct SpacingError {
 impl Segment {
     /// The point at this distance from its start, for a segment with a length.
     fn point(&self, distance: f64) -> (f64, f64) {
-        let (t, (x, y)) = (distance / self.length(), self.by());
-        (f64::from(self.from.x) + t * x as f64, f64::from(self.from.y) + t * y as f64)
+        let t = distance / self.length();
+        let along = |from: f64, by: i64| from + t * (by as f64 / Point::PARTS as f64);
+        (along(self.from.x(), self.by().0), along(self.from.y(), self.by().1))
     }
 
     /// Its direction in radians.
@@ -45,8 +46,8 @@ impl Segment {
     }
 }
 
-fn point((x, y): (i32, i32)) -> (f64, f64) {
-    (f64::from(x), f64::from(y))
+fn point(at: Point) -> (f64, f64) {
+    (at.x(), at.y())
 }
 
 impl Path {
@@ -55,12 +56,12 @@ impl Path {
     /// a path without waypoints.
     #[must_use]
     pub fn point_at(&self, distance: f64) -> Option<(f64, f64)> {
-        let (start, end) = (self.waypoints.first()?, self.waypoints.last()?);
+        let (start, end) = (self.start()?, self.goal()?);
         if distance.is_nan() {
             return None;
         }
         if distance <= 0.0 {
-            return Some(point((start.x, start.y)));
+            return Some(point(start));
         }
         let mut before = 0.0;
         for segment in self.segments() {
@@ -70,7 +71,7 @@ impl Path {
             }
             before = after;
         }
-        Some(point((end.x, end.y)))
+        Some(point(end))
     }
 
     /// Points along the path, `spacing` cells apart as measured along it: at 0, `spacing`, 2 `spacing`, …
@@ -111,9 +112,8 @@ impl Path {
                 segment = segments.next();
             }
         });
-        let end = |at: Option<&Vertex>| at.map(|at| point((at.x, at.y)));
-        let first = end(self.waypoints.first());
-        let last = end(self.waypoints.last().filter(|_| self.length > 0.0));
+        let first = self.start().map(point);
+        let last = self.goal().filter(|_| self.length > 0.0).map(point);
         Ok(first.into_iter().chain(inner).chain(last))
     }
 

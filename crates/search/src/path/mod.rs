@@ -33,6 +33,10 @@ pub(crate) use self::{
 /// map. Places on it are vertices, whole or not: between centers, (x, y) is the middle of cell (x, y), at
 /// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
 ///
+/// **Paths between points.** An any-angle path may start and end between vertices. Then
+/// [`points`](Self::points) has all that it leads through; [`waypoints`](Self::waypoints), which are vertices,
+/// are those of a path all of whose points are vertices, and such a path has none.
+///
 /// **Cost and length** are one number, unless the path is one on a cost surface, where each cell has a cost
 /// of its own: then [`cost`](Self::cost) is that of the surface, and [`length`](Self::length) the length all
 /// the same. Paths are equal if they have the same waypoints and cost.
@@ -53,7 +57,10 @@ pub(crate) use self::{
 /// ```
 #[derive(Clone, Debug)]
 pub struct Path {
+    /// Empty if some point is no vertex.
     waypoints: Vec<Vertex>,
+    /// All points, if some point is no vertex.
+    points: Option<Box<[Point]>>,
     length: f64,
     /// The cost on a cost surface.
     own_cost: Option<f64>,
@@ -61,7 +68,7 @@ pub struct Path {
 
 impl PartialEq for Path {
     fn eq(&self, other: &Self) -> bool {
-        self.waypoints == other.waypoints && self.cost() == other.cost()
+        self.points().eq(other.points()) && self.cost() == other.cost()
     }
 }
 
@@ -72,7 +79,25 @@ impl Path {
     pub fn new(waypoints: Vec<Vertex>) -> Self {
         // Not `sum`, which yields −0 for no segments.
         let length = waypoints.windows(2).fold(0.0, |length, ends| length + ends[0].distance(ends[1]));
-        Self { waypoints, length, own_cost: None }
+        Self { waypoints, points: None, length, own_cost: None }
+    }
+
+    /// The path along these points, which need not be vertices.
+    ///
+    /// ```
+    /// use mediant_search::Path;
+    /// let path = Path::through([(0.5, 0.5), (0.5, 2.0)]);
+    /// assert_eq!((path.length(), path.len(), path.waypoints().len()), (1.5, 2, 0));
+    /// assert_eq!(Path::through([(0.0, 0.0), (3.0, 4.0)]), Path::new(vec![(0, 0).into(), (3, 4).into()]));
+    /// ```
+    #[must_use]
+    pub fn through(points: impl IntoIterator<Item = impl Into<Point>>) -> Self {
+        let points: Box<[Point]> = points.into_iter().map(Into::into).collect();
+        if let Some(waypoints) = points.iter().map(|at| at.vertex()).collect() {
+            return Self::new(waypoints);
+        }
+        let length = points.windows(2).fold(0.0, |length, ends| length + ends[0].distance(ends[1]));
+        Self { waypoints: Vec::new(), points: Some(points), length, own_cost: None }
     }
 
     /// The path along these waypoints with a cost of its own: that on a cost surface, which the path does not
@@ -89,7 +114,27 @@ impl Path {
         Self { own_cost: Some(cost), ..Self::new(waypoints) }
     }
 
-    /// The waypoints, start and goal included.
+    /// [`through`](Self::through) these points, but for those at which the path stands still or goes straight
+    /// on.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn straightened(points: impl IntoIterator<Item = impl Into<Point>>) -> Self {
+        let mut kept: Vec<Point> = Vec::new();
+        for at in points.into_iter().map(Into::into) {
+            match kept[..] {
+                [.., last] if last == at => continue,
+                [.., before, last] if Segment::new(before, last).continues_in(&Segment::new(last, at)) => {
+                    kept.pop();
+                }
+                _ => {}
+            }
+            kept.push(at);
+        }
+        Self::through(kept)
+    }
+
+    /// The waypoints, start and goal included; none of a path with points that are no vertices, which
+    /// [`points`](Self::points) has.
     #[must_use]
     pub fn waypoints(&self) -> &[Vertex] {
         &self.waypoints
@@ -102,21 +147,38 @@ impl Path {
     /// let path = Path::new(vec![(0, 0).into(), (3, 0).into(), (5, 2).into()]);
     /// assert_eq!(path.points().map(|point| point.to_string()).collect::<String>(), "(0, 0)(3, 0)(5, 2)");
     /// ```
-    pub fn points(&self) -> impl ExactSizeIterator<Item = Point> + DoubleEndedIterator {
-        self.waypoints.iter().copied().map(Point::from)
+    pub fn points(&self) -> impl ExactSizeIterator<Item = Point> + DoubleEndedIterator + Clone {
+        let (vertices, between) = (&self.waypoints, self.points.as_deref().unwrap_or_default());
+        // One of both is empty.
+        (0..vertices.len().max(between.len())).map(|index| match vertices.get(index) {
+            Some(&at) => at.into(),
+            None => between[index],
+        })
     }
 
-    /// The number of waypoints. [`vertices`](Self::vertices) counts each step, [`length`](Self::length)
+    /// Where it begins; `None` without points.
+    #[must_use]
+    pub fn start(&self) -> Option<Point> {
+        self.points().next()
+    }
+
+    /// Where it ends; `None` without points.
+    #[must_use]
+    pub fn goal(&self) -> Option<Point> {
+        self.points().next_back()
+    }
+
+    /// The number of points. [`vertices`](Self::vertices) counts each step, [`length`](Self::length)
     /// measures.
     #[must_use]
-    pub const fn len(&self) -> usize {
-        self.waypoints.len()
+    pub fn len(&self) -> usize {
+        self.points().len()
     }
 
-    /// Whether there is no waypoint. The paths of engines have at least one.
+    /// Whether there is no point. The paths of engines have at least one.
     #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.waypoints.is_empty()
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
     }
 
     /// The waypoints one after another, as a loop over `&path` has them.
@@ -150,8 +212,18 @@ impl Path {
     /// this path's in the last bits. A cost of its own is the same.
     #[must_use]
     pub fn reversed(&self) -> Self {
-        let waypoints = self.waypoints.iter().rev().copied().collect();
-        Self { own_cost: self.own_cost, ..Self::new(waypoints) }
+        Self { own_cost: self.own_cost, ..Self::through(self.points().rev()) }
+    }
+
+    /// The same path, moved by so many parts of a cell (1/1024) to the right and down.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn moved(&self, (right, down): (i64, i64)) -> Self {
+        let moved = self.points().map(|at| {
+            let (x, y) = at.parts();
+            Point::from_parts(x + right, y + down)
+        });
+        Self { own_cost: self.own_cost, ..Self::through(moved) }
     }
 
     /// This path and then another one, which begins where this one ends. If it goes straight on there, that
@@ -172,29 +244,28 @@ impl Path {
     /// # Errors
     /// [`JoinError`] if the other path begins elsewhere.
     pub fn joined(&self, other: &Self) -> Result<Self, JoinError> {
-        let (Some(&end), Some(&start)) = (self.waypoints.last(), other.waypoints.first()) else {
-            return Ok(if self.waypoints.is_empty() { other.clone() } else { self.clone() });
+        let (Some(end), Some(start)) = (self.goal(), other.start()) else {
+            return Ok(if self.is_empty() { other.clone() } else { self.clone() });
         };
         if end != start {
             return Err(JoinError { end, start });
         }
-        let mut waypoints = self.waypoints.clone();
-        let before = waypoints.len().checked_sub(2).and_then(|index| waypoints.get(index));
-        let ends = before.zip(other.waypoints.get(1));
-        if ends.is_some_and(|(&before, &after)| {
+        let mut points: Vec<Point> = self.points().collect();
+        let ends = self.points().rev().nth(1).zip(other.points().nth(1));
+        if ends.is_some_and(|(before, after)| {
             Segment::new(before, end).continues_in(&Segment::new(start, after))
         }) {
-            waypoints.pop();
+            points.pop();
         }
-        waypoints.extend_from_slice(other.waypoints.get(1..).unwrap_or_default());
+        points.extend(other.points().skip(1));
         let has_own = self.own_cost.is_some() || other.own_cost.is_some();
-        Ok(Self { own_cost: has_own.then(|| self.cost() + other.cost()), ..Self::new(waypoints) })
+        Ok(Self { own_cost: has_own.then(|| self.cost() + other.cost()), ..Self::through(points) })
     }
 }
 
 impl Path {
-    /// The rest of the path from a vertex on it, where the path passes it first; `None` for a vertex that is
-    /// not on the path. Its cost is its length: on a cost surface, which the path does not know, measure it
+    /// The rest of the path from a point on it, where the path passes it first; `None` for a point that is not
+    /// on the path. Its cost is its length: on a cost surface, which the path does not know, measure it
     /// anew.
     ///
     /// ```
@@ -205,18 +276,19 @@ impl Path {
     /// assert_eq!(path.rest((2, 1)), None);
     /// ```
     #[must_use]
-    pub fn rest(&self, from: impl Into<Vertex>) -> Option<Self> {
+    pub fn rest(&self, from: impl Into<Point>) -> Option<Self> {
         let from = from.into();
-        let is_on = |ends: &[Vertex]| {
+        let points: Vec<Point> = self.points().collect();
+        let is_on = |ends: &[Point]| {
             let [one, other] = [Segment::new(ends[0], from), Segment::new(from, ends[1])];
             from == ends[0] || from == ends[1] || one.continues_in(&other)
         };
-        if self.waypoints.as_slice() == [from] {
-            return Some(Self::new(vec![from]));
+        if points == [from] {
+            return Some(Self::through([from]));
         }
-        let index = self.waypoints.windows(2).position(is_on)?;
-        let after = self.waypoints[index + 1..].iter().copied().skip_while(|&at| at == from);
-        Some(Self::new(std::iter::once(from).chain(after).collect()))
+        let index = points.windows(2).position(is_on)?;
+        let after = points[index + 1..].iter().copied().skip_while(|&at| at == from);
+        Some(Self::through(std::iter::once(from).chain(after)))
     }
 }
 
@@ -252,15 +324,15 @@ impl IntoIterator for Path {
 #[error("the path ends at {end}, and the other one begins at {start}: they must meet to be joined")]
 pub struct JoinError {
     /// Where the first path ends.
-    pub end: Vertex,
+    pub end: Point,
     /// Where the second one begins.
-    pub start: Vertex,
+    pub start: Point,
 }
 
 /// The waypoints, joined by arrows.
 impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (at, waypoint) in self.waypoints.iter().enumerate() {
+        for (at, waypoint) in self.points().enumerate() {
             write!(f, "{}{waypoint}", if at == 0 { "" } else { " → " })?;
         }
         Ok(())

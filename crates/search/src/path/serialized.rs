@@ -1,5 +1,6 @@
 //! Paths as serde reads and writes them.
 
+use mediant_grid::Point;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Path;
@@ -14,6 +15,6 @@ impl Serialize for Path {
 /// The length is measured anew, and is the cost.
 impl<'de> Deserialize<'de> for Path {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::deserialize(deserializer).map(Self::new)
+        Vec::<Point>::deserialize(deserializer).map(Self::through)
     }
 }

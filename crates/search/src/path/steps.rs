@@ -1,25 +1,34 @@
 //! The segments of a path, and the moves, vertices and cells along them.
 
-use mediant_grid::{PlacementKind, Vector, Vertex, sight::segment_cells};
+use mediant_grid::{
+    PlacementKind, Point, Vector, Vertex,
+    sight::{point_cells, segment_cells},
+};
 use mediant_moves::{K, level};
 
 use super::Path;
 
-/// The straight piece between two waypoints. Waypoints may be anywhere, so displacements are 64 bits wide.
+/// The straight piece between two points. Points may be anywhere, so displacements are 64 bits wide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Segment {
-    pub(super) from: Vertex,
-    pub(super) to: Vertex,
+    pub(super) from: Point,
+    pub(super) to: Point,
 }
 
 impl Segment {
-    pub(super) const fn new(from: Vertex, to: Vertex) -> Self {
-        Self { from, to }
+    pub(super) fn new(from: impl Into<Point>, to: impl Into<Point>) -> Self {
+        Self { from: from.into(), to: to.into() }
     }
 
-    /// The displacement from start to end.
-    pub(super) fn by(&self) -> (i64, i64) {
-        (i64::from(self.to.x) - i64::from(self.from.x), i64::from(self.to.y) - i64::from(self.from.y))
+    /// The displacement from start to end, in parts of a cell.
+    pub(super) const fn by(&self) -> (i64, i64) {
+        let ((from_x, from_y), (to_x, to_y)) = (self.from.parts(), self.to.parts());
+        (to_x - from_x, to_y - from_y)
+    }
+
+    /// Its ends, if both are vertices.
+    pub(super) fn ends(&self) -> Option<[Vertex; 2]> {
+        Some([self.from.vertex()?, self.to.vertex()?])
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -39,43 +48,54 @@ impl Segment {
         det == 0 && dot > 0
     }
 
-    /// How many times its move is taken: the greatest common divisor of its displacement.
+    /// How many times its move is taken, between vertices: the greatest common divisor of its displacement.
     fn times(&self) -> i64 {
         let (mut a, mut b) = (self.by().0.abs(), self.by().1.abs());
         while b != 0 {
             (a, b) = (b, a % b);
         }
-        a
+        a / Point::PARTS
     }
 
-    /// Its move, if it has a length and the move fits.
+    /// Its move, if it has a length, its ends are vertices, and the move fits.
     fn unit(&self) -> Option<Vector> {
+        self.ends()?;
         let (times, (x, y)) = (self.times(), self.by());
+        let (x, y) = (x / Point::PARTS, y / Point::PARTS);
         let along = |by: i64| i32::try_from(by.checked_div(times)?).ok();
         Some(Vector::new(along(x)?, along(y)?))
     }
 
-    /// The cells on both sides of a segment that runs along a grid line; none of others.
-    fn beside(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> + use<> {
-        let (by_x, by_y) = self.by();
-        let is_along = placement == PlacementKind::Corner && (by_x == 0) != (by_y == 0);
-        let steps = if is_along { by_x.abs() + by_y.abs() } else { 0 };
-        let (from, (x, y)) = (self.from, (by_x.signum(), by_y.signum()));
-        (0..steps).flat_map(move |step| {
-            // The cell that the step's edge is the top or the left side of, and the one across.
-            let [column, row] =
-                [(from.x, x), (from.y, y)].map(|(from, by)| (i64::from(from) + by * step + by.min(0)) as i32);
-            let across =
-                if x == 0 { (column.saturating_sub(1), row) } else { (column, row.saturating_sub(1)) };
-            [across, (column, row)]
-        })
+    /// The cells that it touches: see [`Path::touched_cells`].
+    fn touched_cells(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> + use<> {
+        // One of both is empty on a segment between vertices.
+        let of_vertices = self.ends().into_iter().flat_map(move |[from, to]| {
+            segment_cells(placement, from, to).chain(beside(placement, from, to))
+        });
+        let of_points = if self.ends().is_none() { point_cells(self.from, self.to) } else { Vec::new() };
+        of_vertices.chain(of_points)
     }
+}
+
+/// The cells on both sides of a segment that runs along a grid line; none of others.
+fn beside(placement: PlacementKind, from: Vertex, to: Vertex) -> impl Iterator<Item = (i32, i32)> + use<> {
+    let (by_x, by_y) = (i64::from(to.x) - i64::from(from.x), i64::from(to.y) - i64::from(from.y));
+    let is_along = placement == PlacementKind::Corner && (by_x == 0) != (by_y == 0);
+    let steps = if is_along { by_x.abs() + by_y.abs() } else { 0 };
+    let (x, y) = (by_x.signum(), by_y.signum());
+    (0..steps).flat_map(move |step| {
+        // The cell that the step's edge is the top or the left side of, and the one across.
+        let [column, row] =
+            [(from.x, x), (from.y, y)].map(|(from, by)| (i64::from(from) + by * step + by.min(0)) as i32);
+        let across = if x == 0 { (column.saturating_sub(1), row) } else { (column, row.saturating_sub(1)) };
+        [across, (column, row)]
+    })
 }
 
 impl Path {
     /// The segments that have a length.
-    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone {
-        let segments = self.waypoints.windows(2).map(|ends| Segment::new(ends[0], ends[1]));
+    pub(super) fn segments(&self) -> impl Iterator<Item = Segment> + Clone + '_ {
+        let segments = self.points().zip(self.points().skip(1)).map(|(from, to)| Segment::new(from, to));
         segments.filter(|segment| segment.from != segment.to)
     }
 
@@ -94,7 +114,8 @@ impl Path {
 
     /// The walk: every vertex on the path, in order, which are the waypoints and all vertices that its
     /// segments pass exactly through. On a path over N(k) there is one after each move: where an agent stands
-    /// that makes one move at a time. Standing still counts once.
+    /// that makes one move at a time. Standing still counts once. A path with points that are no vertices has
+    /// none.
     pub fn vertices(&self) -> impl Iterator<Item = Vertex> {
         vertices(&self.waypoints)
     }
@@ -117,15 +138,13 @@ impl Path {
     /// assert_eq!(cells(PlacementKind::Corner), [(0, -1), (0, 0), (1, -1), (1, 0), (2, 0)]);
     /// ```
     pub fn touched_cells(&self, placement: PlacementKind) -> impl Iterator<Item = (i32, i32)> {
-        let alone = self.waypoints.first().filter(|_| self.segments().next().is_none());
-        let alone = alone.map(|&at| Segment::new(at, at));
+        let alone = self.start().filter(|_| self.segments().next().is_none());
+        let alone = alone.map(|at| Segment::new(at, at));
         let segments = alone.into_iter().chain(self.segments());
         let mut last = None;
-        let of = move |segment: Segment| {
-            // One of the two is empty.
-            segment_cells(placement, segment.from, segment.to).chain(segment.beside(placement))
-        };
-        segments.flat_map(of).filter(move |&cell| last.replace(cell) != Some(cell))
+        segments
+            .flat_map(move |segment| segment.touched_cells(placement))
+            .filter(move |&cell| last.replace(cell) != Some(cell))
     }
 
     /// Whether each segment of the path is a move of N(k), taken once or several times in a row: whether it
@@ -157,6 +176,7 @@ pub(crate) fn vertices(waypoints: &[Vertex]) -> impl Iterator<Item = Vertex> {
 pub(crate) fn between(from: Vertex, to: Vertex) -> impl DoubleEndedIterator<Item = Vertex> {
     let segment = Segment::new(from, to);
     let (times, (x, y)) = (segment.times().max(1), segment.by());
+    let (x, y) = (x / Point::PARTS, y / Point::PARTS);
     // Between two numbers of 32 bits.
     let along = move |from: i32, by: i64, part: i64| (i64::from(from) + by / times * part) as i32;
     (1..times).map(move |part| Vertex::new(along(from.x, x, part), along(from.y, y, part)))

@@ -1,13 +1,13 @@
 //! From which vertex to which a query asks for a path.
 
-use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
+use mediant_grid::{Point, Vector, Vertex};
 use mediant_moves::Cost;
 
-use super::{Wishes, nearest::nearest};
+use super::{EndSpace, PointEnds, Wishes, nearest::nearest};
 use crate::{
     limit::with_room,
     metric::Metric,
-    query::{End, Ends, QueryError},
+    query::{End, QueryError},
 };
 
 /// No path by a displacement costs less.
@@ -16,7 +16,7 @@ pub(super) type Bound<'b> = dyn Fn(Vector) -> Cost + 'b;
 /// A path that answers the query, if it is the shortest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pair {
-    pub(super) ends: Ends,
+    pub(super) ends: PointEnds,
     /// No path between the two costs less: the straight line, or h_k where paths are over N(k).
     pub(super) least: Cost,
     /// Its place in the order of goals, then of starts.
@@ -29,22 +29,24 @@ pub(super) struct EndSets {
     /// The connected pairs, by their least cost, then by rank.
     pub(super) pairs: Vec<Pair>,
     /// The first start.
-    pub(super) start: Vertex,
+    pub(super) start: Point,
     /// Whether the goals are the vertices nearest to those of the query.
     pub(super) are_nearest: bool,
 }
 
 impl EndSets {
-    /// The one start that all pairs have, if there are several pairs, and it is no goal itself.
+    /// The one start that all pairs have, if there are several pairs between vertices, and it is no goal
+    /// itself.
     pub(super) fn only_start(&self) -> Option<Vertex> {
         let first = self.pairs.first().filter(|first| self.pairs.len() > 1 && first.least != Cost::ZERO)?;
         let start = first.ends.start;
-        self.pairs.iter().all(|pair| pair.ends.start == start).then_some(start)
+        let is_from_start = |pair: &Pair| pair.ends.start == start && pair.ends.goal.vertex().is_some();
+        start.vertex().filter(|_| self.pairs.iter().all(is_from_start))
     }
 
     /// The pairs of a query. `metric` is h_k or the straight line, by which 'near' is measured.
-    pub(super) fn new<P: Placement>(
-        space: &FreeSpace<P>,
+    pub(super) fn new(
+        space: &impl EndSpace,
         metric: Metric,
         bound: &Bound<'_>,
         wishes: &Wishes,
@@ -67,34 +69,31 @@ impl EndSets {
     }
 
     /// Adds the pairs that are connected.
-    fn add<P: Placement>(
-        &mut self,
-        space: &FreeSpace<P>,
-        bound: &Bound<'_>,
-        starts: &[Vertex],
-        goals: &[Vertex],
-    ) {
+    fn add(&mut self, space: &impl EndSpace, bound: &Bound<'_>, starts: &[Point], goals: &[Point]) {
         for (&goal, goal_rank) in goals.iter().zip(0..) {
             for (&start, start_rank) in starts.iter().zip(0..) {
                 if space.connected(start, goal) {
-                    let least = bound(start.to(goal));
-                    let rank = (goal_rank, start_rank);
-                    self.pairs.push(Pair { ends: Ends::new(start, goal), least, rank });
+                    let ends = PointEnds::new(start, goal);
+                    let least = match ends.vertices() {
+                        Some(ends) => bound(ends.start.to(ends.goal)),
+                        None => Metric::Euclidean.between(start, goal),
+                    };
+                    self.pairs.push(Pair { ends, least, rank: (goal_rank, start_rank) });
                 }
             }
         }
     }
 
     /// Adds the vertices that can be reached and are nearest to a goal of the query.
-    fn add_nearest<P: Placement>(
+    fn add_nearest(
         &mut self,
-        space: &FreeSpace<P>,
+        space: &impl EndSpace,
         metric: Metric,
         bound: &Bound<'_>,
-        starts: &[Vertex],
+        starts: &[Point],
         wishes: &Wishes,
     ) {
-        let is_reachable = |at: Vertex| starts.iter().any(|&start| space.connected(start, at));
+        let is_reachable = |at: Vertex| starts.iter().any(|&start| space.connected(start, at.into()));
         let mut near: Option<(Cost, Vec<Vertex>)> = None;
         for &goal in &wishes.goals {
             let goal = clamped(space, goal);
@@ -108,28 +107,37 @@ impl EndSets {
         let mut goals = near.map_or(Vec::new(), |(_, vertices)| vertices);
         goals.sort_unstable_by_key(|at| (at.y, at.x));
         goals.dedup();
+        let goals: Vec<Point> = goals.into_iter().map(Into::into).collect();
         self.add(space, bound, starts, &goals);
     }
 }
 
-/// The vertices at which paths may begin or end: the free ones among the ends of a query, those within the
-/// tolerance of a goal, and those to which blocked ends are moved.
-fn free_ends<P: Placement>(
-    space: &FreeSpace<P>,
+/// The points at which paths may begin or end: the free ones among the ends of a query, the vertices within
+/// the tolerance of a goal, and those to which blocked ends are moved.
+fn free_ends(
+    space: &impl EndSpace,
     metric: Metric,
     wishes: &Wishes,
     end: End,
-    ends: &[Vertex],
-) -> Result<Vec<Vertex>, QueryError> {
+    ends: &[Point],
+) -> Result<Vec<Point>, QueryError> {
     if ends.is_empty() {
         return Err(QueryError::NoEnd { end });
     }
     let mut free = Vec::with_capacity(ends.len());
     for &at in ends {
+        // Over N(k) a point between vertices is no end, whatever is wished.
+        if at.vertex().is_none() && !matches!(metric, Metric::Euclidean) {
+            return Err(QueryError::Between { end, at });
+        }
         let known = free.len();
-        if end == End::Goal && wishes.tolerance > 0.0 && space.id(at).is_some() {
-            free.extend(around(space, at, wishes.tolerance));
-        } else if space.is_free(at) {
+        let checked = space.check(end, at);
+        if end == End::Goal && wishes.tolerance > 0.0 && clamped(space, at) == at {
+            free.extend(around(space, at, wishes.tolerance).map(Point::from));
+            if at.vertex().is_none() && checked.is_ok() {
+                free.push(at);
+            }
+        } else if checked.is_ok() {
             free.push(at);
         }
         if free.len() > known {
@@ -139,28 +147,36 @@ fn free_ends<P: Placement>(
             let at = clamped(space, at);
             let moved = nearest(space, metric, at, |at| space.is_free(at))
                 .and_then(|(_, near)| near.first().copied());
-            free.push(moved.ok_or_else(|| end.blocked(space, at))?);
-        } else if end == End::Start || !wishes.nearest || space.id(at).is_none() {
-            end.check(space, at)?;
+            free.push(moved.map(Point::from).ok_or_else(|| nothing_free(space, end, at))?);
+        } else if end == End::Start || !wishes.nearest || clamped(space, at) != at {
+            checked?;
         }
     }
     Ok(free)
 }
 
-/// The free vertices within a distance of a goal, row by row.
-fn around<P: Placement>(space: &FreeSpace<P>, goal: Vertex, cells: f64) -> impl Iterator<Item = Vertex> {
-    let (width, height) = P::vertices(space.grid());
-    // A float that is too large becomes the greatest integer.
-    let reach = with_room(cells) as i32;
-    let rows = (goal.y.saturating_sub(reach)).max(0)..=goal.y.saturating_add(reach).min(height as i32 - 1);
-    let columns = (goal.x.saturating_sub(reach)).max(0)..=goal.x.saturating_add(reach).min(width as i32 - 1);
-    let all = rows.flat_map(move |y| columns.clone().map(move |x| Vertex::new(x, y)));
-    let greatest = with_room(cells) * with_room(cells);
-    all.filter(move |&at| at.to(goal).norm_squared() as f64 <= greatest && space.is_free(at))
+/// The error of an end on a map on which no vertex is free.
+fn nothing_free(space: &impl EndSpace, end: End, at: Point) -> QueryError {
+    space.check(end, at).err().unwrap_or(QueryError::NothingFree { end, at })
 }
 
-/// The vertex of the map's rectangle that is nearest along each axis.
-fn clamped<P: Placement>(space: &FreeSpace<P>, at: Vertex) -> Vertex {
-    let (width, height) = P::vertices(space.grid());
-    Vertex::new(at.x.clamp(0, width as i32 - 1), at.y.clamp(0, height as i32 - 1))
+/// The free vertices within a distance of a goal, row by row.
+fn around<S: EndSpace>(space: &S, goal: Point, cells: f64) -> impl Iterator<Item = Vertex> {
+    let (width, height) = space.size();
+    // A float that is too large becomes the greatest integer.
+    let reach = with_room(cells) as i32;
+    let (low, high) = (goal.floor(), goal.ceil());
+    let rows = (low.y.saturating_sub(reach)).max(0)..=high.y.saturating_add(reach).min(height as i32 - 1);
+    let columns = (low.x.saturating_sub(reach)).max(0)..=high.x.saturating_add(reach).min(width as i32 - 1);
+    let all = rows.flat_map(move |y| columns.clone().map(move |x| Vertex::new(x, y)));
+    let greatest = with_room(cells) * with_room(cells);
+    all.filter(move |&at| goal.distance_squared(at.into()) <= greatest && space.is_free(at))
+}
+
+/// The point of the map's rectangle that is nearest along each axis.
+fn clamped(space: &impl EndSpace, at: Point) -> Point {
+    let (width, height) = space.size();
+    let (x, y) = at.parts();
+    let last = |vertices: u32| i64::from(vertices.saturating_sub(1)) * Point::PARTS;
+    Point::from_parts(x.clamp(0, last(width)), y.clamp(0, last(height)))
 }

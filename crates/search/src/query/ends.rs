@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{FreeSpace, Placement, Vertex, VertexId};
+use mediant_grid::{FreeSpace, Placement, Point, Vertex, VertexId};
 
 use super::{end::End, error::QueryError};
 
@@ -82,13 +82,13 @@ impl End {
         if space.id(at).is_none() {
             let (width, height) = P::vertices(space.grid());
             let last = Vertex::new(width as i32 - 1, height as i32 - 1);
-            return Err(QueryError::Outside { end, at, last });
+            return Err(QueryError::Outside { end, at: at.into(), last });
         }
-        if space.is_free(at) { Ok(()) } else { Err(end.blocked(space, at)) }
+        if space.is_free(at) { Ok(()) } else { Err(end.blocked(space, at.into())) }
     }
 
     /// The error of an end that is not free.
-    pub(crate) fn blocked<P: Placement>(self, space: &FreeSpace<P>, at: Vertex) -> QueryError {
+    pub(crate) fn blocked<P: Placement>(self, space: &FreeSpace<P>, at: Point) -> QueryError {
         match space.grid().has_free_cells() {
             true => QueryError::Blocked { end: self, at },
             false => QueryError::NothingFree { end: self, at },

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::Vertex;
+use mediant_grid::{Point, Vertex};
 
 use super::end::End;
 
@@ -16,10 +16,21 @@ pub enum QueryError {
     Outside {
         /// Which end.
         end: End,
-        /// The vertex of the query.
-        at: Vertex,
+        /// The end of the query.
+        at: Point,
         /// The map's last vertex.
         last: Vertex,
+    },
+    /// An end between vertices, for an engine whose paths start and end at vertices.
+    #[error(
+        "the {end} {at} lies between vertices: name a vertex, or ask for a path at any angle by an engine that \
+         takes any point: Anya, or subgoals"
+    )]
+    Between {
+        /// Which end.
+        end: End,
+        /// The end of the query.
+        at: Point,
     },
     /// The planner found no path although there is one.
     #[error("no path was found, though there is one: {why}")]
@@ -53,8 +64,8 @@ pub enum QueryError {
     Blocked {
         /// Which end.
         end: End,
-        /// The vertex of the query.
-        at: Vertex,
+        /// The end of the query.
+        at: Point,
     },
     /// An end is blocked, as all cells of the map are.
     #[error(
@@ -64,8 +75,8 @@ pub enum QueryError {
     NothingFree {
         /// Which end.
         end: End,
-        /// The vertex of the query.
-        at: Vertex,
+        /// The end of the query.
+        at: Point,
     },
 }
 

@@ -2,24 +2,28 @@
 
 mod end;
 mod end_sets;
+mod end_space;
 mod ends;
 mod error;
 mod limits;
 mod nearest;
 mod path_costs;
+mod point_ends;
 mod search;
 mod watch;
 
 use std::fmt;
 
-use mediant_grid::Vertex;
+use mediant_grid::Point;
 
 pub use self::{
     end::End,
+    end_space::EndSpace,
     ends::Ends,
     error::QueryError,
     limits::{Limit, Limits, Stopped},
     path_costs::PathCosts,
+    point_ends::PointEnds,
     search::Search,
 };
 
@@ -27,7 +31,10 @@ pub use self::{
 /// where there is no way, limits.
 ///
 /// Without wishes it costs nothing more than its [`Ends`]. They are a query, too, as are a pair and an array
-/// of two vertices.
+/// of two vertices or points.
+///
+/// At any angle an end may be any point of the free space, such as (2.03, 0.5). It is rounded to a multiple of
+/// 1/1024 of a cell, by at most 1/2048 along each axis; the path begins and ends with the rounded point.
 ///
 /// ```
 /// use mediant_search::{Limits, Query};
@@ -37,18 +44,19 @@ pub use self::{
 /// assert_eq!((one.starts().len(), several.goals().len()), (1, 2));
 /// assert_eq!(several.to_string(), "(0, 0) or (3, 0) → (9, 9) or (9, 0)");
 /// assert_eq!(Query::from([(0, 0), (9, 9)]).to_string(), "(0, 0) → (9, 9)");
+/// assert_eq!(Query::new((0.5, 0.25), (9, 9)).to_string(), "(0.5, 0.25) → (9, 9)");
 /// ```
 #[derive(Clone, Debug)]
 pub struct Query {
-    ends: Ends,
+    ends: PointEnds,
     wishes: Option<Box<Wishes>>,
 }
 
 /// The wishes of a query beyond its ends, and its ends, since there may be several.
 #[derive(Clone, Debug)]
 pub(crate) struct Wishes {
-    pub(crate) starts: Vec<Vertex>,
-    pub(crate) goals: Vec<Vertex>,
+    pub(crate) starts: Vec<Point>,
+    pub(crate) goals: Vec<Point>,
     pub(crate) tolerance: f64,
     pub(crate) nearest: bool,
     pub(crate) snap: bool,
@@ -58,19 +66,26 @@ pub(crate) struct Wishes {
 impl From<Ends> for Query {
     #[inline]
     fn from(ends: Ends) -> Self {
+        PointEnds::from(ends).into()
+    }
+}
+
+impl From<PointEnds> for Query {
+    #[inline]
+    fn from(ends: PointEnds) -> Self {
         Self { ends, wishes: None }
     }
 }
 
-impl<S: Into<Vertex>, G: Into<Vertex>> From<(S, G)> for Query {
-    fn from(ends: (S, G)) -> Self {
-        Ends::from(ends).into()
+impl<S: Into<Point>, G: Into<Point>> From<(S, G)> for Query {
+    fn from((start, goal): (S, G)) -> Self {
+        Self::new(start, goal)
     }
 }
 
-impl<V: Into<Vertex>> From<[V; 2]> for Query {
-    fn from(ends: [V; 2]) -> Self {
-        Ends::from(ends).into()
+impl<P: Into<Point>> From<[P; 2]> for Query {
+    fn from([start, goal]: [P; 2]) -> Self {
+        Self::new(start, goal)
     }
 }
 
@@ -109,20 +124,20 @@ impl Ends {
 impl Query {
     /// The query for a path from `start` to `goal`.
     #[must_use]
-    pub fn new(start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Self {
-        Ends::new(start, goal).into()
+    pub fn new(start: impl Into<Point>, goal: impl Into<Point>) -> Self {
+        PointEnds::new(start, goal).into()
     }
 
     /// The shortest of the paths from any of the starts to any of the goals, on a cost surface the cheapest.
     /// Of paths of the same cost, the one whose goal comes first in the list, then the one whose start does.
     #[must_use]
-    pub fn between<S: Into<Vertex>, G: Into<Vertex>>(
+    pub fn between<S: Into<Point>, G: Into<Point>>(
         starts: impl IntoIterator<Item = S>,
         goals: impl IntoIterator<Item = G>,
     ) -> Self {
-        let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
-        let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
-        let first = |ends: &[Vertex]| ends.first().copied().unwrap_or(Vertex::new(0, 0));
+        let starts: Vec<Point> = starts.into_iter().map(Into::into).collect();
+        let goals: Vec<Point> = goals.into_iter().map(Into::into).collect();
+        let first = |ends: &[Point]| ends.first().copied().unwrap_or(Point::from_parts(0, 0));
         let mut query = Self::new(first(&starts), first(&goals));
         let wishes = query.wishes_mut();
         (wishes.starts, wishes.goals) = (starts, goals);
@@ -145,7 +160,8 @@ impl Query {
 
     /// The path may end at any free vertex whose straight-line distance to the goal is at most this many
     /// cells, those at exactly this distance included: the shortest of these paths; of several one of them,
-    /// always the same by the same engine. The goal itself may be blocked then.
+    /// always the same by the same engine. The goal itself may be blocked then; if it lies between vertices
+    /// and is free, the path may end there, too.
     #[must_use]
     pub fn tolerance(mut self, cells: f64) -> Self {
         self.wishes_mut().tolerance = cells;
@@ -176,36 +192,59 @@ impl Query {
 
     /// The starts.
     #[must_use]
-    pub fn starts(&self) -> &[Vertex] {
+    pub fn starts(&self) -> &[Point] {
         self.wishes.as_ref().map_or(std::slice::from_ref(&self.ends.start), |wishes| &wishes.starts)
     }
 
     /// The goals.
     #[must_use]
-    pub fn goals(&self) -> &[Vertex] {
+    pub fn goals(&self) -> &[Point] {
         self.wishes.as_ref().map_or(std::slice::from_ref(&self.ends.goal), |wishes| &wishes.goals)
+    }
+
+    /// Its two ends, if they are vertices and there are no wishes.
+    #[must_use]
+    #[inline]
+    pub fn as_ends(&self) -> Option<Ends> {
+        if self.wishes.is_some() { None } else { self.ends.vertices() }
     }
 
     /// Its two ends, if there are no wishes.
     #[must_use]
     #[inline]
-    pub const fn as_ends(&self) -> Option<Ends> {
+    pub fn as_points(&self) -> Option<PointEnds> {
         if self.wishes.is_some() { None } else { Some(self.ends) }
     }
 
+    /// The same query with each end moved by so many parts of a cell (1/1024) to the right and down.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn moved(mut self, (right, down): (i64, i64)) -> Self {
+        let moved = |at: &mut Point| {
+            let (x, y) = at.parts();
+            *at = Point::from_parts(x.saturating_add(right), y.saturating_add(down));
+        };
+        moved(&mut self.ends.start);
+        moved(&mut self.ends.goal);
+        if let Some(wishes) = &mut self.wishes {
+            wishes.starts.iter_mut().chain(&mut wishes.goals).for_each(moved);
+        }
+        self
+    }
+
     fn wishes_mut(&mut self) -> &mut Wishes {
-        let Ends { start, goal } = self.ends;
+        let PointEnds { start, goal } = self.ends;
         self.wishes.get_or_insert_with(|| Box::new(Wishes::between(start, goal)))
     }
 
     pub(crate) fn into_wishes(self) -> Wishes {
-        let Ends { start, goal } = self.ends;
+        let PointEnds { start, goal } = self.ends;
         self.wishes.map_or_else(|| Wishes::between(start, goal), |wishes| *wishes)
     }
 }
 
 impl Wishes {
-    fn between(start: Vertex, goal: Vertex) -> Self {
+    fn between(start: Point, goal: Point) -> Self {
         Self {
             starts: vec![start],
             goals: vec![goal],
@@ -220,7 +259,7 @@ impl Wishes {
 /// As `(0, 0) → (7, 0)`.
 impl fmt::Display for Query {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let any_of = |ends: &[Vertex]| ends.iter().map(Vertex::to_string).collect::<Vec<_>>().join(" or ");
+        let any_of = |ends: &[Point]| ends.iter().map(Point::to_string).collect::<Vec<_>>().join(" or ");
         f.pad(&format!("{} → {}", any_of(self.starts()), any_of(self.goals())))
     }
 }

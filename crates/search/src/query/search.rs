@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_grid::{Point, Vertex};
 use mediant_moves::Cost;
 
 use super::{
-    PathCosts, Query,
+    EndSpace, PathCosts, Query,
     end_sets::{Bound, EndSets, Pair},
     limits::{Limit, Stopped},
     watch::{Pause, Progress, Watch},
@@ -100,8 +100,8 @@ impl Search {
     /// # Errors
     /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the query says what to
     /// do then, and for limits and tolerances that are no numbers, or less than 0.
-    pub fn new<P: Placement>(
-        space: &FreeSpace<P>,
+    pub fn new(
+        space: &impl EndSpace,
         metric: Metric,
         guarantee: Guarantee,
         query: Query,
@@ -115,8 +115,8 @@ impl Search {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn on_costs<P: Placement>(
-        space: &FreeSpace<P>,
+    pub fn on_costs(
+        space: &impl EndSpace,
         metric: Metric,
         (guarantee, costs): (Guarantee, Arc<dyn PathCosts>),
         query: Query,
@@ -126,8 +126,8 @@ impl Search {
         Self::with_bound(space, (metric, &least), (guarantee, Some(costs)), query)
     }
 
-    fn with_bound<P: Placement>(
-        space: &FreeSpace<P>,
+    fn with_bound(
+        space: &impl EndSpace,
         (metric, bound): (Metric, &Bound<'_>),
         (guarantee, costs): (Guarantee, Option<Arc<dyn PathCosts>>),
         query: Query,
@@ -152,8 +152,8 @@ impl Search {
             known: Cost::MAX,
             least: Cost::ZERO,
             pause: None,
-            goal: Vertex::new(0, 0),
-            nearest: (Cost::MAX, Vertex::new(0, 0)),
+            goal: Point::from_parts(0, 0),
+            nearest: (Cost::MAX, Point::from_parts(0, 0)),
         };
         Ok(Self {
             answer: ends.pairs.is_empty().then_some(Ok(Answer::Unreachable)),
@@ -253,7 +253,7 @@ impl Search {
         if !self.has_begun {
             let Pair { ends, least, .. } = pair;
             self.progress.goal = ends.goal;
-            self.progress.nearest = (self.metric.distance(ends.start.to(ends.goal)), ends.start);
+            self.progress.nearest = (self.metric.between(ends.start, ends.goal), ends.start);
             self.progress.least = least;
             self.progress.pause = self.progress.reason();
             // The number of expansions does not forbid a path that takes none.
@@ -267,13 +267,17 @@ impl Search {
             && self.next == pairs
             && !self.has_begun
         {
-            let goals: Vec<Vertex> = self.ends.pairs.iter().map(|pair| pair.ends.goal).collect();
+            let goals = self.ends.pairs.iter().filter_map(|pair| pair.ends.goal.vertex());
+            let goals: Vec<Vertex> = goals.collect();
             let status = planner.begin_from(&goals, start, &mut watch);
             self.backward = status.map_or(Backward::No, |_| Backward::To(start));
             self.has_begun = status.is_some();
         }
         if !self.has_begun {
-            let status = planner.begin(pair.ends, &mut watch)?;
+            let status = match pair.ends.vertices() {
+                Some(ends) => planner.begin(ends, &mut watch)?,
+                None => planner.begin_at(pair.ends, &mut watch).ok_or_else(|| pair.ends.between())??,
+            };
             self.has_begun = true;
             if status != SearchStatus::Searching {
                 return Ok(status);
@@ -296,7 +300,7 @@ impl Search {
     fn found(&mut self, pair: Pair, planner: &mut impl Planner) {
         let path = match self.backward {
             Backward::To(start) => planner.path_to(start).map(|path| path.reversed()),
-            Backward::No | Backward::After(..) => planner.path_to(pair.ends.goal),
+            Backward::No | Backward::After(..) => planner.path_to_point(pair.ends.goal),
         };
         if let Some(path) = path {
             let cost = match &self.costs {
@@ -331,7 +335,8 @@ impl Search {
     /// The path to the vertex nearest to the goal.
     fn path_to_nearest(&self, planner: &mut impl Planner) -> Path {
         let start = self.ends.pairs.get(self.next).map_or(self.ends.start, |pair| pair.ends.start);
-        self.path_to(planner, self.progress.nearest.1).unwrap_or_else(|| Path::new(vec![start]))
+        let nearest = self.progress.nearest.1.vertex();
+        nearest.and_then(|at| self.path_to(planner, at)).unwrap_or_else(|| Path::through([start]))
     }
 
     fn stop(&mut self, by: Limit, planner: &mut impl Planner) {

@@ -1,6 +1,6 @@
 //! The observer of a search for a query, which enforces its limits.
 
-use mediant_grid::Vertex;
+use mediant_grid::{Point, Vertex};
 use mediant_moves::Cost;
 
 use super::limits::{Limit, Limits};
@@ -41,9 +41,10 @@ pub(super) struct Progress {
     /// The least f of the open nodes when the search paused.
     pub(super) least: Cost,
     pub(super) pause: Option<Pause>,
-    pub(super) goal: Vertex,
-    /// The vertex nearest to the goal among those that were reached, and its distance.
-    pub(super) nearest: (Cost, Vertex),
+    pub(super) goal: Point,
+    /// The vertex nearest to the goal among those that were reached, and its distance; before any was reached
+    /// the start.
+    pub(super) nearest: (Cost, Point),
 }
 
 /// An observer that counts, pauses at limits, and knows what is nearest to the goal.
@@ -87,9 +88,9 @@ impl<O: Observer> Observer for Watch<'_, O> {
     }
 
     fn reached(&mut self, at: Vertex, g: Cost) {
-        let distance = self.metric.distance(at.to(self.progress.goal));
+        let distance = self.metric.between(at.into(), self.progress.goal);
         if distance < self.progress.nearest.0 && g <= self.progress.greatest {
-            self.progress.nearest = (distance, at);
+            self.progress.nearest = (distance, at.into());
         }
         self.observer.reached(at, g);
     }

@@ -1,6 +1,6 @@
 //! Smoothing along the path (Botea, Müller & Schaeffer 2004).
 
-use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_grid::{FreeSpace, Placement, Point, Vertex};
 
 use crate::{
     line_path::push_waypoint,
@@ -35,7 +35,7 @@ use crate::{
 #[must_use]
 pub fn smooth<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_repetitions(waypoints);
-    if check(space, &corners).is_err() {
+    if check(space, corners.iter().map(Point::from)).is_err() {
         return waypoints.to_vec();
     }
     let all = smooth_legal(space, &corners);

@@ -47,9 +47,12 @@ pub enum Smoothing {
 names!(Smoothing: Linear => "linear", Taut => "taut");
 
 impl Smoothing {
-    /// Smooths a path.
+    /// Smooths a path. One with points that are no vertices stays as it is: it leads at any angle already.
     #[must_use]
     pub fn apply<P: Placement>(self, space: &FreeSpace<P>, path: &Path) -> Path {
+        if path.waypoints().is_empty() {
+            return path.clone();
+        }
         Path::new(match self {
             Self::Linear => smooth(space, path.waypoints()),
             Self::Taut => pull_taut(space, path.waypoints()),

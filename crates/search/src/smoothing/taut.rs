@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mediant_grid::{FreeSpace, Placement, Vector, Vertex, sight::PolygonCells};
+use mediant_grid::{FreeSpace, Placement, Point, Vector, Vertex, sight::PolygonCells};
 use mediant_moves::Cost;
 
 use super::linear::{smooth_legal, without_repetitions};
@@ -48,7 +48,7 @@ use crate::path::{between, check};
 #[must_use]
 pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Vec<Vertex> {
     let corners = without_repetitions(waypoints);
-    if check(space, &corners).is_err() {
+    if check(space, corners.iter().map(Point::from)).is_err() {
         return waypoints.to_vec();
     }
     let mut string = Taut { space, path: smooth_legal(space, &corners), cover: PolygonCells::default() };

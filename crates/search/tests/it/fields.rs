@@ -237,11 +237,11 @@ fn what_is_wrong_with_a_field() {
     let (end, last) = (End::Start, Vertex::new(1, 1));
     let refused = |error| Some(FieldError::Query(error));
     let found = fields.field(FieldQuery::new(&[free, blocked])).err();
-    assert_eq!(found, refused(QueryError::Blocked { end, at: blocked }));
+    assert_eq!(found, refused(QueryError::Blocked { end, at: blocked.into() }));
     let found = fields.field(FieldQuery::new(&[outside])).err();
-    assert_eq!(found, refused(QueryError::Outside { end, at: outside, last }));
+    assert_eq!(found, refused(QueryError::Outside { end, at: outside.into(), last }));
     let found = fields.field(FieldQuery::new(&[free]).until(&[blocked])).err();
-    assert_eq!(found, refused(QueryError::Blocked { end: End::Goal, at: blocked }));
+    assert_eq!(found, refused(QueryError::Blocked { end: End::Goal, at: blocked.into() }));
     for limit in [f64::NAN, -1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY] {
         let found = fields.field(FieldQuery::new(&[free]).within(limit)).err();
         assert!(matches!(found, Some(FieldError::Limit { .. })), "{limit}");

@@ -20,6 +20,7 @@ mod kramm2018;
 mod open_list;
 mod path;
 mod path_change;
+mod points;
 mod queries;
 mod replanning;
 mod smoothing;

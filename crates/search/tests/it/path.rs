@@ -326,13 +326,16 @@ fn odd_spacings_and_distances() {
 #[test]
 fn turns_are_positive_to_the_right() {
     let turns = |waypoints: &[(i32, i32)]| -> Vec<_> {
-        path(waypoints).turns().map(|turn| ((turn.at.x, turn.at.y), turn.angle / PI)).collect()
+        path(waypoints)
+            .turns()
+            .map(|turn| (turn.at.vertex().map(<(i32, i32)>::from), turn.angle / PI))
+            .collect()
     };
     // East, then south: to the right, since y is down.
-    assert_eq!(turns(&[(0, 0), (2, 0), (2, 2)]), [((2, 0), 0.5)]);
-    assert_eq!(turns(&[(0, 0), (2, 0), (2, -2)]), [((2, 0), -0.5)]);
-    assert_eq!(turns(&[(0, 0), (2, 0), (3, 1)]), [((2, 0), 0.25)]);
-    assert_eq!(turns(&[(0, 0), (2, 1), (2, 1), (4, 2), (0, 0)]), [((4, 2), 1.0)]);
+    assert_eq!(turns(&[(0, 0), (2, 0), (2, 2)]), [(Some((2, 0)), 0.5)]);
+    assert_eq!(turns(&[(0, 0), (2, 0), (2, -2)]), [(Some((2, 0)), -0.5)]);
+    assert_eq!(turns(&[(0, 0), (2, 0), (3, 1)]), [(Some((2, 0)), 0.25)]);
+    assert_eq!(turns(&[(0, 0), (2, 1), (2, 1), (4, 2), (0, 0)]), [(Some((4, 2)), 1.0)]);
     assert_eq!(path(&[(0, 0), (2, 1), (4, 2)]).bends(), 0);
     let headings: Vec<_> = path(&[(0, 0), (1, 0), (1, 0), (1, 1), (0, 1), (0, 0)]).headings().collect();
     assert_eq!(headings, [0.0, PI / 2.0, PI, -PI / 2.0]);

@@ -259,10 +259,10 @@ fn starts_that_are_no_vertices_are_errors() {
     let mut waves = waves(&grid, rules, FiniteK::N8);
     let (end, last) = (End::Start, Vertex::new(2, 1));
     for at in [(3, 0), (0, 2), (-1, 0), (i32::MIN, i32::MAX)].map(Vertex::from) {
-        assert_eq!(waves.distances(at), Err(QueryError::Outside { end, at, last }));
+        assert_eq!(waves.distances(at), Err(QueryError::Outside { end, at: at.into(), last }));
     }
     let at = Vertex::new(1, 1);
-    assert_eq!(waves.distances(at), Err(QueryError::Blocked { end, at }));
+    assert_eq!(waves.distances(at), Err(QueryError::Blocked { end, at: at.into() }));
     // There are no distances to vertices outside the map.
     let distances = waves.distances(Vertex::new(0, 1)).unwrap();
     assert_eq!(distances.get(Vertex::new(0, 0)), Some(1));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{BitMatrix, Grid, Vertex};
+use mediant_grid::{BitMatrix, Grid, sight::Place};
 
 use super::{
     DeadEnds,
@@ -110,11 +110,13 @@ impl Opened {
         &self.rows
     }
 
-    /// Opens the dead ends that paths between two vertices may need, and closes all others.
-    pub(in super::super) fn open(&mut self, grid: &Grid, ends: [Vertex; 2]) {
+    /// Opens the dead ends that paths between two places may need, and closes all others.
+    pub(in super::super) fn open(&mut self, grid: &Grid, ends: [Place; 2]) {
         self.close();
-        for Vertex { x, y } in ends {
-            for (x, y) in [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)] {
+        for end in ends {
+            let ((left, right), (above, below)) = (end.columns(), end.lines());
+            // The cells that it touches: of a vertex four.
+            for (x, y) in [(right - 1, below - 1), (left, below - 1), (right - 1, above), (left, above)] {
                 self.open_at(grid, x, y);
             }
         }

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use mediant_grid::{AsciiMap, Change, DiagonalGap, Grid, Rectangle, Vertex};
+use mediant_grid::{AsciiMap, Change, DiagonalGap, Grid, Rectangle, Vertex, sight::Place};
 use mediant_oracle::{Rng, caves, maze, noise, rooms, seeds};
 
 use super::{parts::Link, *};
@@ -14,6 +14,10 @@ fn opened(space: &FreeSpace<Corners>) -> Opened {
 }
 
 /// The map with `x` for closed dead ends.
+fn ends(start: (i32, i32), goal: (i32, i32)) -> [Place; 2] {
+    [start, goal].map(|at| Place::of(at.into()))
+}
+
 fn draw(dead_ends: &Opened, grid: &Grid) -> String {
     let cell = |x, y| match (grid.is_blocked(x, y), dead_ends.rows().row(y).is_blocked(x)) {
         (true, _) => '#',
@@ -33,12 +37,12 @@ fn parts_that_are_not_on_the_way_are_shut() {
     let mut dead_ends = opened(&space);
     let closed = ".....\n.#.#.\n.....\n#x###\n...##\n.#.##\n...##";
     assert_eq!(draw(&dead_ends, space.grid()), closed);
-    dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(2, 7)]);
+    dead_ends.open(space.grid(), ends((0, 0), (2, 7)));
     assert!(!draw(&dead_ends, space.grid()).contains('x'));
     // The way up is shut.
-    dead_ends.open(space.grid(), [Vertex::new(0, 6), Vertex::new(2, 7)]);
+    dead_ends.open(space.grid(), ends((0, 6), (2, 7)));
     assert_eq!(draw(&dead_ends, space.grid()), ".....\n.#.#.\nxxxxx\n#.###\n...##\n.#.##\n...##");
-    dead_ends.open(space.grid(), [Vertex::new(0, 0), Vertex::new(5, 3)]);
+    dead_ends.open(space.grid(), ends((0, 0), (5, 3)));
     assert_eq!(draw(&dead_ends, space.grid()), closed);
 }
 
@@ -59,13 +63,13 @@ fn only_the_ways_around_obstacles_are_left() {
     let closed = "##xx####xxx\n#xxx####..x\nx.....x.#.x\nx.##..x...x\nx.##..x.#.x\nx.....x...x";
     assert_eq!(draw(&dead_ends, space.grid()), closed);
     // From a corner of the bay to a place that is in no dead end; the way to the other obstacle is shut.
-    dead_ends.open(space.grid(), [Vertex::new(4, 0), Vertex::new(5, 4)]);
+    dead_ends.open(space.grid(), ends((4, 0), (5, 4)));
     let open = "##..####xxx\n#...####..x\nx......x#.x\nx.##...x..x\nx.##...x#.x\nx......x..x";
     assert_eq!(draw(&dead_ends, space.grid()), open);
-    dead_ends.open(space.grid(), [Vertex::new(9, 3), Vertex::new(9, 4)]);
+    dead_ends.open(space.grid(), ends((9, 3), (9, 4)));
     assert_eq!(draw(&dead_ends, space.grid()), closed);
     // From the one obstacle to the other one: the column that parts them is open.
-    dead_ends.open(space.grid(), [Vertex::new(5, 3), Vertex::new(8, 4)]);
+    dead_ends.open(space.grid(), ends((5, 3), (8, 4)));
     let open = "##xx####xxx\n#xxx####..x\nx.......#.x\nx.##......x\nx.##....#.x\nx.........x";
     assert_eq!(draw(&dead_ends, space.grid()), open);
 }
@@ -211,7 +215,8 @@ fn repairs_keep_what_the_proofs_need() {
             if rng.below(4) == 0 {
                 continue;
             }
-            let end = |rng: &mut Rng| Vertex::new(rng.below(width) as i32, rng.below(height) as i32);
+            let end =
+                |rng: &mut Rng| Place::of(Vertex::new(rng.below(width) as i32, rng.below(height) as i32));
             followed.follow(Arc::clone(&dead_ends));
             let mut new = Opened::new(Arc::clone(&dead_ends));
             assert!(followed.is_same(&new), "{case}");
