@@ -2,7 +2,8 @@
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Interrupt, Interrupted, Placement, Vector, Vertex, load,
-    sight::{Quadrants, RowSummary, Targets, VisibilitySweep},
+    sight::{Place, Quadrants, RowSummary, Targets, VisibilitySweep},
+    uninterrupted,
 };
 use mediant_moves::{Cost, K};
 
@@ -29,6 +30,30 @@ pub struct SightTables {
     /// The subgoals that taut paths pass in directions in which x and y have the same sign, and in directions
     /// in which they have opposite signs.
     tangents: [BitMatrix; 2],
+}
+
+/// What a query looks around with whose ends need not be vertices: tables of a map, and scratch memory.
+#[derive(Debug)]
+pub(crate) struct PointSight {
+    tables: SightTables,
+    sweep: VisibilitySweep,
+}
+
+impl PointSight {
+    /// The tables of a map: two bits a vertex, and two for each band of eight rows and a column.
+    pub(crate) fn new(space: &FreeSpace<Corners>, subgoals: &BitMatrix) -> Self {
+        let tables = uninterrupted(|never| Corners::tables(space, subgoals, never));
+        Self { tables, sweep: VisibilitySweep::default() }
+    }
+
+    /// Calls `visit` with the subgoals at which a shortest path at any angle may bend first that starts at a
+    /// place, vertex or not.
+    pub(crate) fn seen_from(&mut self, space: &FreeSpace<Corners>, from: Place, visit: impl FnMut(Vertex)) {
+        let SightTables { row_summary, tangents: [same, opposite] } = &self.tables;
+        let is_gap = from.vertex().is_some_and(|at| space.is_closed_gap(at));
+        let quadrants = if is_gap { Quadrants::only(1, 1) } else { Quadrants::ALL };
+        self.sweep.seen(space, row_summary, Targets { same, opposite }, from, quadrants, visit);
+    }
 }
 
 impl EdgeTables for SightTables {

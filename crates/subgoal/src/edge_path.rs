@@ -1,9 +1,12 @@
 //! How an edge becomes moves of N(k): those of [`follow_line`], or, where every optimal path of the empty
 //! grid is free, the first that comes to hand.
 
-use mediant_grid::{FreeSpace, Placement, PlacementKind, Vector, Vertex};
+use mediant_grid::{Corners, FreeSpace, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{FiniteK, K, decompose};
-use mediant_search::parts::{along_line, elbows, follow_line, leg_is_free, legs_are_free, push_waypoint};
+use mediant_search::{
+    Path, PointEnds,
+    parts::{along_line, elbows, follow_line, leg_is_free, legs_are_free, push_waypoint},
+};
 
 use crate::placement::EdgeCriterion;
 
@@ -49,6 +52,18 @@ pub(crate) fn direct_path<P: Placement>(
         }
     }
     is_straight()
+}
+
+/// The straight path at any angle between two points, if it is free.
+pub(crate) fn direct_between(
+    space: &FreeSpace<Corners>,
+    PointEnds { start, goal, .. }: PointEnds,
+) -> Option<Path> {
+    let is_free = start == goal
+        || space.point_sees(start, goal)
+            && space.may_turn_at(None, start, Some(goal))
+            && space.may_turn_at(Some(start), goal, None);
+    is_free.then(|| Path::straightened([start, goal]))
 }
 
 /// Whether the paths of an edge over either elbow are free.

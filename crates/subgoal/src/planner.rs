@@ -2,20 +2,61 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Identity, Mismatch, Vertex};
+use mediant_grid::{FreeSpace, Identity, Mismatch, Point, Vertex, sight::Place};
 use mediant_moves::{Cost, K};
 use mediant_search::{
-    Ends, Guarantee, NodeEvent, Observer, Path, Planner, QueryError, SearchStatus,
-    parts::{HasFreeSpace, SearchTree},
+    Ends, Guarantee, NodeEvent, Observer, Path, Planner, PointEnds, QueryError, SearchStatus,
+    parts::{HasFreeSpace, Metric, SearchTree},
 };
 
 use crate::{
     arc::{NONE, PackedArc, ParentEdge, Step},
     bends::BendRule,
-    edge_path::{direct_path, extend},
+    corners::PointSight,
+    edge_path::{direct_between, direct_path, extend},
     graph::SubgoalGraph,
     placement::SubgoalPlacement,
 };
+
+/// An end of a query.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum QueryEnd {
+    Vertex(Vertex),
+    /// At any angle, a place that is no vertex.
+    Between(Place),
+}
+
+impl QueryEnd {
+    fn new(at: Place) -> Self {
+        at.vertex().map_or(Self::Between(at), Self::Vertex)
+    }
+
+    /// The vertex, or the nearest one above and to the left: what observers are told.
+    const fn floor(self) -> Vertex {
+        match self {
+            Self::Vertex(at) => at,
+            Self::Between(at) => at.floor(),
+        }
+    }
+
+    fn point(self) -> Point {
+        match self {
+            Self::Vertex(at) => at.into(),
+            Self::Between(at) => at.into(),
+        }
+    }
+
+    /// A lower bound on the cost of a path from a vertex to here; between places it is the cost of a free line.
+    #[inline]
+    fn estimate(self, metric: Metric, from: Vertex) -> Cost {
+        match self {
+            Self::Vertex(at) => metric.estimate(from.to(at)),
+            Self::Between(at) => {
+                Cost::from_bits(metric.estimate(Place::of(from).to(at)).to_bits() >> Place::PLACES)
+            }
+        }
+    }
+}
 
 /// Sub-A*(k) of Hormazábal, Díaz, Hernández & Baier 2017: optimal paths over N(k), or at any angle, on a
 /// subgoal graph.
@@ -46,7 +87,9 @@ pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     /// Scratch memory: the arcs from the meeting point back to the start.
     arcs: Vec<PackedArc>,
     waypoints: Vec<Vertex>,
-    query: Option<Ends>,
+    query: Option<[QueryEnd; 2]>,
+    /// What a query looks around with whose ends are no vertices.
+    sight: Option<PointSight>,
     status: SearchStatus,
     /// Whether `waypoints` are a path that was found without a search.
     is_direct: bool,
@@ -86,6 +129,7 @@ where
             arcs: Vec::new(),
             waypoints: Vec::new(),
             query: None,
+            sight: None,
             status: SearchStatus::default(),
             is_direct: false,
             best: (Cost::MAX, None),
@@ -100,7 +144,8 @@ where
     pub fn follow(&mut self, space: S, graph: I) -> Result<(), Mismatch> {
         graph.check(&*space)?;
         self.searches.iter_mut().for_each(|search| search.fit(graph.subgoals()));
-        (self.query, self.status, self.is_direct) = (None, SearchStatus::default(), false);
+        (self.query, self.sight) = (None, None);
+        (self.status, self.is_direct) = (SearchStatus::default(), false);
         self.best = (Cost::MAX, None);
         (self.space, self.graph) = (space, graph);
         Ok(())
@@ -120,7 +165,8 @@ where
             return Ok(self.status);
         }
         let Ends { start, goal, .. } = query;
-        self.query = Some(query);
+        let ends = [start, goal];
+        self.query = Some(ends.map(QueryEnd::Vertex));
         self.is_direct = if start == goal {
             self.waypoints.clear();
             self.waypoints.push(start);
@@ -133,34 +179,76 @@ where
             return Ok(self.status);
         }
         let Self { graph, scratch, query_edges, searches, .. } = self;
-        let ends = [start, goal];
         for (at, edges) in ends.into_iter().zip(&mut *query_edges) {
             graph.query_edges(space, scratch, at, edges);
         }
-        self.best = begin(graph, searches, query_edges, ends, observer);
+        self.best = begin(graph, searches, query_edges, ends.map(QueryEnd::Vertex), observer);
         self.status = SearchStatus::Searching;
         Ok(self.status)
     }
 
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        let Self { space, graph, sight, query_edges, searches, .. } = self;
+        let space = P::at_corners(space.free_space()).filter(|_| graph.k == K::Any)?;
+        (self.query, self.status) = (None, SearchStatus::Unreachable);
+        let places = match ends.places(space) {
+            Ok(places) => places,
+            Err(error) => return Some(Err(error)),
+        };
+        if !space.points_connected(ends.start, ends.goal) {
+            return Some(Ok(self.status));
+        }
+        let query = places.map(QueryEnd::new);
+        self.query = Some(query);
+        self.is_direct = direct_between(space, ends).is_some();
+        if self.is_direct {
+            self.status = SearchStatus::Found;
+            return Some(Ok(self.status));
+        }
+        let sight = sight.get_or_insert_with(|| PointSight::new(space, graph.subgoals.marks()));
+        for ((place, end), edges) in places.into_iter().zip(query).zip(&mut *query_edges) {
+            edges.clear();
+            sight.seen_from(space, place, |at| {
+                let id = graph.subgoals.id(at);
+                edges.extend(id.map(|id| (id, end.estimate(graph.metric, at))));
+            });
+        }
+        self.best = begin(graph, searches, query_edges, query, observer);
+        self.status = SearchStatus::Searching;
+        Some(Ok(self.status))
+    }
+
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {
         if let (Some(query), SearchStatus::Searching) = (self.query, self.status) {
-            self.status = self.search([query.start, query.goal], observer);
+            self.status = self.search(query, observer);
         }
         Ok(self.status)
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let Ends { start, goal, .. } = self.query?;
-        if at == goal && self.is_direct {
-            return Some(Path::new(self.waypoints.clone()));
+        self.path_to_point(at.into())
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        let [start, goal] = self.query?;
+        let (from, to) = (start.point(), goal.point());
+        if at == from {
+            return Some(Path::through([from]));
         }
-        if at == start {
-            return Some(Path::new(vec![start]));
+        if at == to && self.is_direct {
+            return Some(match start {
+                QueryEnd::Vertex(_) if to.vertex().is_some() => Path::new(self.waypoints.clone()),
+                _ => Path::through([from, to]),
+            });
         }
-        match self.best.1.filter(|_| at == goal && !self.is_direct) {
+        match self.best.1.filter(|_| at == to && !self.is_direct) {
             Some(meeting) => Some(self.path(start, meeting, Some(goal))),
             None => {
-                let id = self.graph.subgoals.id(at).filter(|_| !self.is_direct)?;
+                let id = self.graph.subgoals.id(at.vertex()?).filter(|_| !self.is_direct)?;
                 self.searches[0].cost(id)?;
                 Some(self.path(start, id, None))
             }
@@ -187,7 +275,7 @@ where
 {
     /// Finds the subgoal at which the searches from the start and from the goal meet on a shortest path, or
     /// pauses.
-    fn search(&mut self, ends: [Vertex; 2], observer: &mut impl Observer) -> SearchStatus {
+    fn search(&mut self, ends: [QueryEnd; 2], observer: &mut impl Observer) -> SearchStatus {
         let Self { space, graph, searches, best: result, .. } = self;
         let (graph, space) = (&**graph, space.free_space());
         let mut best = *result;
@@ -205,8 +293,9 @@ where
             let Some((f, id, g, swaps)) = searches[side].pop() else { break SearchStatus::Unreachable };
             observer.percolated(swaps);
             let at = graph.subgoals.vertex(id);
-            let before =
-                searches[side].parent(id).map_or(ends[side], |(parent, _)| graph.subgoals.vertex(parent));
+            let before = searches[side]
+                .parent(id)
+                .map_or(ends[side].floor(), |(parent, _)| graph.subgoals.vertex(parent));
             observer.expanded(NodeEvent { at, parent: Some(before), g, f });
             if side == 0 && !space.is_closed_gap(at) {
                 observer.reached(at, g);
@@ -228,7 +317,7 @@ where
                 if this.cost(arc.to).is_some_and(|known| known <= g) {
                     continue;
                 }
-                let h = graph.metric.estimate(graph.subgoals.vertex(arc.to).to(ends[1 - side]));
+                let h = ends[1 - side].estimate(graph.metric, graph.subgoals.vertex(arc.to));
                 if g + h < best.0 {
                     let edge = ParentEdge { middle: arc.middle, last: arc.last };
                     let (is_first, swaps) = this.set_path_and_open(arc.to, g, h, id, edge);
@@ -241,7 +330,9 @@ where
                     }
                     if let Some(rest) = other.cost(arc.to).filter(|&rest| g + rest < best.0) {
                         best = (g + rest, Some(arc.to));
-                        observer.reached(ends[1], best.0);
+                        if let QueryEnd::Vertex(goal) = ends[1] {
+                            observer.reached(goal, best.0);
+                        }
                     }
                 }
             }
@@ -251,12 +342,35 @@ where
     }
 
     /// The path to a subgoal, and on to the goal if the searches meet there.
-    fn path(&mut self, start: Vertex, meeting: u32, goal: Option<Vertex>) -> Path {
-        let Self { space, graph, searches: [forward, backward], pending, arcs, waypoints, .. } = self;
-        let (space, graph) = (space.free_space(), &**graph);
+    fn path(&mut self, start: QueryEnd, meeting: u32, goal: Option<QueryEnd>) -> Path {
+        let (QueryEnd::Vertex(from), None | Some(QueryEnd::Vertex(_))) = (start, goal) else {
+            let mut points = vec![start.point()];
+            self.visit(meeting, goal.is_some(), |_, at| points.push(at.into()));
+            return Path::straightened(points.into_iter().chain(goal.map(QueryEnd::point)));
+        };
+        let mut waypoints = std::mem::take(&mut self.waypoints);
         waypoints.clear();
-        waypoints.push(start);
-        let mut to = |at: Vertex| extend(waypoints, space, (graph.k, graph.criterion), at);
+        waypoints.push(from);
+        self.visit(meeting, goal.is_some(), |(space, graph), at| {
+            extend(&mut waypoints, space, (graph.k, graph.criterion), at);
+        });
+        if let Some(QueryEnd::Vertex(goal)) = goal {
+            extend(&mut waypoints, self.space.free_space(), (self.graph.k, self.graph.criterion), goal);
+        }
+        self.waypoints = waypoints;
+        Path::new(self.waypoints.clone())
+    }
+
+    /// Visits the subgoals of the path to a subgoal, and those on to the goal if the searches meet there.
+    fn visit(
+        &mut self,
+        meeting: u32,
+        is_meeting: bool,
+        mut visit: impl FnMut((&FreeSpace<P>, &SubgoalGraph<P>), Vertex),
+    ) {
+        let Self { space, graph, searches: [forward, backward], pending, arcs, .. } = self;
+        let (space, graph) = (space.free_space(), &**graph);
+        let mut to = |at: Vertex| visit((space, graph), at);
         arcs.clear();
         let mut at = meeting;
         while let Some((parent, ParentEdge { middle, .. })) = forward.parent(at) {
@@ -267,15 +381,11 @@ where
         while let Some(arc) = arcs.pop() {
             graph.unpack(arc, pending, &mut to);
         }
-        if let Some(goal) = goal {
-            let mut at = meeting;
-            while let Some((parent, ParentEdge { middle, .. })) = backward.parent(at) {
-                graph.unpack(PackedArc { from: at, to: parent, middle }, pending, &mut to);
-                at = parent;
-            }
-            to(goal);
+        let mut at = meeting;
+        while let Some((parent, ParentEdge { middle, .. })) = backward.parent(at).filter(|_| is_meeting) {
+            graph.unpack(PackedArc { from: at, to: parent, middle }, pending, &mut to);
+            at = parent;
         }
-        Path::new(waypoints.clone())
     }
 }
 
@@ -285,7 +395,7 @@ fn begin<P: SubgoalPlacement>(
     graph: &SubgoalGraph<P>,
     searches: &mut [SearchTree<ParentEdge>; 2],
     query_edges: &[Vec<(u32, Cost)>; 2],
-    ends: [Vertex; 2],
+    ends: [QueryEnd; 2],
     observer: &mut impl Observer,
 ) -> (Cost, Option<u32>) {
     let mut best = (Cost::MAX, None);
@@ -293,11 +403,16 @@ fn begin<P: SubgoalPlacement>(
         searches[side].start_search();
         for &(id, g) in edges {
             let at = graph.subgoals.vertex(id);
-            let h = graph.metric.estimate(at.to(ends[1 - side]));
-            let edge = ParentEdge { middle: NONE, last: Step::of(ends[side].to(at)) };
+            let h = ends[1 - side].estimate(graph.metric, at);
+            // From between vertices a path may go on in any way: one that is not taut is no shortest one.
+            let last = match ends[side] {
+                QueryEnd::Vertex(end) => Step::of(end.to(at)),
+                QueryEnd::Between(_) => Step::default(),
+            };
+            let edge = ParentEdge { middle: NONE, last };
             let (_, swaps) = searches[side].set_path_and_open(id, g, h, NONE, edge);
             observer.percolated(swaps);
-            observer.generated(NodeEvent { at, parent: Some(ends[side]), g, f: g + h });
+            observer.generated(NodeEvent { at, parent: Some(ends[side].floor()), g, f: g + h });
             if let Some(rest) = (side == 1).then(|| searches[0].cost(id)).flatten() {
                 best = best.min((g + rest, Some(id)));
             }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{FreeSpace, Identity, Mismatch, Vertex};
+use mediant_grid::{FreeSpace, Identity, Mismatch, Point, Vertex};
 use mediant_moves::{Cost, K};
-use mediant_search::{Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus};
+use mediant_search::{Ends, Guarantee, Observer, Path, Planner, PointEnds, QueryError, SearchStatus};
 
 use super::{EarlierMap, Prepared, bound::WayBound};
 use crate::{
@@ -152,6 +152,23 @@ impl<P: SubgoalPlacement, F: Planner> Planner for EarlierSearch<P, F> {
         self.answer = self.proven(query).map(|(path, cost)| (query, path, cost));
         self.is_proven = self.answer.is_some();
         if self.is_proven { Ok(SearchStatus::Found) } else { self.other.begin(query, observer) }
+    }
+
+    /// By the other planner: of points that are no vertices nothing is proven here.
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        (self.answer, self.is_proven) = (None, false);
+        self.other.begin_at(ends, observer)
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        match self.answer {
+            None => self.other.path_to_point(at),
+            Some(_) => self.path_to(at.vertex()?),
+        }
     }
 
     fn proceed(&mut self, observer: &mut impl Observer) -> Result<SearchStatus, QueryError> {

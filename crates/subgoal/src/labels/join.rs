@@ -4,7 +4,7 @@
 //! lead on over a few of them only. So the steps that look at all of them are short loops without branches,
 //! which could not be predicted.
 
-use mediant_grid::{FreeSpace, Vector, Vertex};
+use mediant_grid::{FreeSpace, Vector, Vertex, sight::Place};
 use mediant_moves::{Cost, FiniteK, K};
 
 use super::{HubLabels, pack::MOST_COST_BITS};
@@ -28,16 +28,64 @@ impl Meeting {
 /// Scratch memory: 16 bytes a subgoal.
 #[derive(Debug)]
 pub(super) struct Join {
-    ends: [Candidates; 2],
+    ends: [Candidates<Step>; 2],
+    /// The same for ends that need not be vertices.
+    points: [Candidates<Line>; 2],
     hubs: Hubs,
+}
+
+/// The displacement from an end to a subgoal.
+type Step = (i32, i32);
+
+/// The line from a point to a subgoal.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    /// Its length in fixed point, rounded down.
+    cost: u64,
+    /// Its displacement in cells.
+    x: f32,
+    y: f32,
+}
+
+/// How an end is joined to a subgoal.
+trait Joint: Copy {
+    /// The cost of the line.
+    fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64;
+
+    /// The direction in which a path arrives at the subgoal, by which it is known how it may lead on; zero where
+    /// it may lead on in any way. A path that is not taut is no shortest one, so it does no harm.
+    fn arrival(self) -> Vector;
+}
+
+impl Joint for Step {
+    #[inline]
+    fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64 {
+        index.metric.estimate(Vector::new(self.0, self.1)).to_bits()
+    }
+
+    #[inline]
+    fn arrival(self) -> Vector {
+        Vector::new(self.0, self.1)
+    }
+}
+
+/// The direction would not fit 16 bits.
+impl Joint for Line {
+    fn cost<P: SubgoalPlacement>(self, _: &HubLabels<P>) -> u64 {
+        self.cost
+    }
+
+    fn arrival(self) -> Vector {
+        Vector::ZERO
+    }
 }
 
 /// The slots that an end of a query is joined to.
 #[derive(Debug)]
-struct Candidates {
+struct Candidates<J> {
     slots: Vec<u32>,
-    /// Their displacements from the end.
-    steps: Vec<(i32, i32)>,
+    /// How it is joined to their subgoals.
+    steps: Vec<J>,
     /// Lower bounds on the costs of paths over them, in cells.
     bounds: Vec<f32>,
     count: usize,
@@ -83,7 +131,8 @@ impl Join {
     pub(super) fn new<P: SubgoalPlacement>(index: &HubLabels<P>) -> Self {
         let room = index.geometry.seen.most + 1;
         let hubs = Hubs { ways: vec![Way::NONE; index.subgoals()], query: FIRST_QUERY };
-        Self { ends: [Candidates::new(room), Candidates::new(room)], hubs }
+        let points = [Candidates::none(), Candidates::none()];
+        Self { ends: [Candidates::new(room), Candidates::new(room)], points, hubs }
     }
 
     /// Becomes the memory for other labels, and keeps what it has of it.
@@ -106,28 +155,40 @@ impl Join {
         space: &FreeSpace<P>,
         [start, goal]: [Vertex; 2],
     ) -> Option<Meeting> {
-        let Self { ends: [departures, arrivals], hubs } = self;
+        let Self { ends: [departures, arrivals], hubs, .. } = self;
         departures.find(index, space, start);
-        let leading = departures.find_leading(index);
-        hubs.start();
-        hubs.join(index, departures);
-        for &i in &departures.leading[..leading] {
-            hubs.write(index, departures, i as usize);
-        }
+        hubs.leave(index, departures);
         arrivals.find(index, space, goal);
         let leading = arrivals.find_leading(index);
         arrivals.find_bounds(index.k, goal.to(start));
-        // The one with the least bound first: then most others need not be read.
-        arrivals.leading_first(leading);
-        let mut best = Meeting::NONE;
-        for &i in &arrivals.leading[..leading] {
-            if arrivals.bounds[i as usize] < above(best.cost) {
-                hubs.read(index, arrivals, i as usize, &mut best);
-            }
-        }
-        hubs.meet(index, arrivals, &mut best);
-        (best != Meeting::NONE).then_some(best)
+        hubs.arrive(index, arrivals, leading)
     }
+
+    /// The same at any angle between places that need not be vertices: `seen` tells the subgoals that each
+    /// sees.
+    pub(super) fn meeting_of_places<P: SubgoalPlacement>(
+        &mut self,
+        index: &HubLabels<P>,
+        [start, goal]: [Place; 2],
+        mut seen: impl FnMut(Place, &mut dyn FnMut(u32)),
+    ) -> Option<Meeting> {
+        let Self { points: [departures, arrivals], hubs, .. } = self;
+        for (end, at) in [(&mut *departures, start), (&mut *arrivals, goal)] {
+            end.clear();
+            seen(at, &mut |id| end.add(index, at, id));
+        }
+        hubs.leave(index, departures);
+        let leading = arrivals.find_leading(index);
+        arrivals.find_bounds(cells(goal.to(start)));
+        hubs.arrive(index, arrivals, leading)
+    }
+}
+
+/// A displacement in parts of a cell, in cells.
+fn cells(v: Vector) -> (f32, f32) {
+    const PART: f64 = 1.0 / Place::parts(1) as f64;
+    let cells = |parts: i32| (f64::from(parts) * PART) as f32;
+    (cells(v.x), cells(v.y))
 }
 
 impl Join {
@@ -139,7 +200,7 @@ impl Join {
         end: Vertex,
         found: &mut Vec<(u32, u64)>,
     ) {
-        let Self { ends: [candidates, _], hubs } = self;
+        let Self { ends: [candidates, _], hubs, .. } = self;
         candidates.find(index, space, end);
         let leading = candidates.find_leading(index);
         let leading = &candidates.leading[..leading];
@@ -158,12 +219,54 @@ impl Join {
         };
         candidates.slots[..candidates.count].iter().for_each(|slot| take(slot / P::SIDES));
         for &i in leading {
-            index.visit(candidates.slots[i as usize], candidates.steps[i as usize], |hub, _| take(hub));
+            let step = candidates.steps[i as usize];
+            index.visit(candidates.slots[i as usize], step, |hub, _| take(hub));
         }
     }
 }
 
-impl Candidates {
+impl Candidates<Line> {
+    fn none() -> Self {
+        let (slots, steps, bounds, leading) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { slots, steps, bounds, count: 0, leading }
+    }
+
+    fn clear(&mut self) {
+        self.slots.clear();
+        self.steps.clear();
+        self.count = 0;
+    }
+
+    /// Adds the sides of a subgoal that a place sees: the one from which it comes, or both where it lies on the
+    /// vertical through the subgoal.
+    fn add<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, from: Place, id: u32) {
+        let to = from.to(Place::of(index.geometry.subgoals.vertex(id)));
+        let (x, y) = cells(to);
+        let cost = index.metric.estimate(to).to_bits() >> Place::PLACES;
+        let (first, last) = match to.x {
+            1.. => (0, 0),
+            0 => (0, P::SIDES - 1),
+            _ => (P::SIDES - 1, P::SIDES - 1),
+        };
+        for side in first..=last {
+            self.slots.push(id * P::SIDES + side);
+            self.steps.push(Line { cost, x, y });
+        }
+        self.count = self.slots.len();
+        self.bounds.resize(self.count, 0.0);
+        self.leading.resize(self.count, 0);
+    }
+
+    /// Finds bounds on the costs of paths to the other end, which is at `other` from here, in cells.
+    fn find_bounds(&mut self, (x, y): (f32, f32)) {
+        let straight = |x: f32, y: f32| (x * x + y * y).sqrt() * BELOW;
+        for (bound, line) in self.bounds[..self.count].iter_mut().zip(&self.steps) {
+            *bound = straight(line.x, line.y) + straight(x - line.x, y - line.y);
+        }
+    }
+}
+
+impl Candidates<Step> {
     fn new(room: usize) -> Self {
         let (slots, leading) = (vec![0; room], vec![0; room]);
         Self { slots, steps: vec![(0, 0); room], bounds: vec![0.0; room], count: 0, leading }
@@ -204,18 +307,6 @@ impl Candidates {
         self.count = kept;
     }
 
-    /// Finds the candidates over which shortest paths can lead on to other subgoals. Returns their number.
-    #[inline]
-    fn find_leading<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) -> usize {
-        let mut count = 0;
-        for ((slot, &(x, y)), i) in self.slots[..self.count].iter().zip(&self.steps).zip(0..) {
-            let side = index.packed.sides[*slot as usize];
-            self.leading[count] = i;
-            count += usize::from(P::leads_on(index.k, side.bends(), Vector::new(x, y), side.edges));
-        }
-        count
-    }
-
     /// Finds bounds on the costs of paths to the other end, which is at `other` from here.
     #[inline]
     fn find_bounds(&mut self, k: K, other: Vector) {
@@ -230,6 +321,20 @@ impl Candidates {
             }
             _ => bounds.for_each(|(bound, v)| *bound = straight(*v) + straight((x - v.0, y - v.1))),
         }
+    }
+}
+
+impl<J: Joint> Candidates<J> {
+    /// Finds the candidates over which shortest paths can lead on to other subgoals. Returns their number.
+    #[inline]
+    fn find_leading<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) -> usize {
+        let mut count = 0;
+        for ((slot, &step), i) in self.slots[..self.count].iter().zip(&self.steps).zip(0..) {
+            let side = index.packed.sides[*slot as usize];
+            self.leading[count] = i;
+            count += usize::from(P::leads_on(index.k, side.bends(), step.arrival(), side.edges));
+        }
+        count
     }
 
     /// Puts the leading one with the least bound first.
@@ -289,25 +394,61 @@ impl Hubs {
         self.query << MOST_COST_BITS
     }
 
+    /// Writes the costs from the start to all hubs.
+    #[inline]
+    fn leave<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, departures: &mut Candidates<impl Joint>) {
+        let leading = departures.find_leading(index);
+        self.start();
+        self.join(index, departures);
+        for &i in &departures.leading[..leading] {
+            self.write(index, departures, i as usize);
+        }
+    }
+
+    /// The best of the paths over hubs to the goal, which has so many leading candidates.
+    #[inline]
+    fn arrive<P: SubgoalPlacement>(
+        &self,
+        index: &HubLabels<P>,
+        arrivals: &mut Candidates<impl Joint>,
+        leading: usize,
+    ) -> Option<Meeting> {
+        // The one with the least bound first: then most others need not be read.
+        arrivals.leading_first(leading);
+        let mut best = Meeting::NONE;
+        for &i in &arrivals.leading[..leading] {
+            if arrivals.bounds[i as usize] < above(best.cost) {
+                self.read(index, arrivals, i as usize, &mut best);
+            }
+        }
+        self.meet(index, arrivals, &mut best);
+        (best != Meeting::NONE).then_some(best)
+    }
+
     /// Writes the costs from the start to the subgoals that it is joined to.
     #[inline]
-    fn join<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates) {
+    fn join<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates<impl Joint>) {
         let base = self.base();
         for (slot, &step) in ends.slots[..ends.count].iter().zip(&ends.steps) {
             let id = slot / P::SIDES;
-            self.ways[id as usize].take(base + index.cost(step), id);
+            self.ways[id as usize].take(base + step.cost(index), id);
         }
     }
 
     /// Reads the costs of paths over the subgoals that the goal is joined to, if their bounds allow.
     #[inline]
-    fn meet<P: SubgoalPlacement>(&self, index: &HubLabels<P>, ends: &Candidates, best: &mut Meeting) {
+    fn meet<P: SubgoalPlacement>(
+        &self,
+        index: &HubLabels<P>,
+        ends: &Candidates<impl Joint>,
+        best: &mut Meeting,
+    ) {
         let (base, limit) = (self.base(), above(best.cost));
         let (mut least, mut found) = (best.cost.to_bits(), None);
         let bounded = ends.slots[..ends.count].iter().zip(&ends.steps).zip(&ends.bounds);
         for ((slot, &step), _) in bounded.filter(|(_, bound)| **bound < limit) {
             let id = slot / P::SIDES;
-            let sum = self.ways[id as usize].cost - base + index.cost(step);
+            let sum = self.ways[id as usize].cost - base + step.cost(index);
             if sum < least {
                 (least, found) = (sum, Some(id));
             }
@@ -324,7 +465,7 @@ impl Hubs {
 
     /// Writes the costs from the start to the hubs of a candidate.
     #[inline]
-    fn write<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates, i: usize) {
+    fn write<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates<impl Joint>, i: usize) {
         let (base, subgoal) = (self.base(), ends.slots[i] / P::SIDES);
         let ways = &mut self.ways;
         index.visit(ends.slots[i], ends.steps[i], |hub, cost| {
@@ -339,7 +480,7 @@ impl Hubs {
     fn read<P: SubgoalPlacement>(
         &self,
         index: &HubLabels<P>,
-        ends: &Candidates,
+        ends: &Candidates<impl Joint>,
         i: usize,
         best: &mut Meeting,
     ) {
@@ -359,19 +500,13 @@ impl Hubs {
 }
 
 impl<P: SubgoalPlacement> HubLabels<P> {
-    /// The cost of the line from an end to a subgoal.
-    #[inline]
-    fn cost(&self, (x, y): (i32, i32)) -> u64 {
-        self.metric.estimate(Vector::new(x, y)).to_bits()
-    }
-
     /// Visits the hubs to which a shortest path can lead on over a slot, and the costs of these paths.
     #[inline]
-    fn visit(&self, slot: u32, step: (i32, i32), mut visit: impl FnMut(u32, u64)) {
+    fn visit(&self, slot: u32, step: impl Joint, mut visit: impl FnMut(u32, u64)) {
         let packed = &self.packed;
-        let g = self.cost(step);
+        let g = step.cost(self);
         let side = packed.sides[slot as usize];
-        let departures = P::departures(self.k, side.bends(), Vector::new(step.0, step.1));
+        let departures = P::departures(self.k, side.bends(), step.arrival());
         let groups = packed.groups(slot, 1);
         let mut begin = packed.begin(groups.start);
         let subgoals = &self.geometry.subgoals;

@@ -33,6 +33,7 @@
 //! A group knows the next subgoal on the way to its hubs, and this subgoal has the same hub ([`whole`]). A
 //! byte beside each label says which of that subgoal's labels it is ([`chain`]).
 
+mod between;
 mod build;
 mod chain;
 mod codec;

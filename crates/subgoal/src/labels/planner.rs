@@ -2,10 +2,10 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Identity, Mismatch, PlacementKind, Vertex};
+use mediant_grid::{Identity, Mismatch, PlacementKind, Point, Vertex};
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_search::{
-    Ends, Guarantee, Observer, Path, Planner, QueryError, SearchStatus, parts::HasFreeSpace,
+    Ends, Guarantee, Observer, Path, Planner, PointEnds, QueryError, SearchStatus, parts::HasFreeSpace,
 };
 
 use super::{
@@ -15,7 +15,8 @@ use super::{
     many::{Goals, ToMany},
 };
 use crate::{
-    edge_path::{direct_path, extend},
+    corners::PointSight,
+    edge_path::{direct_between, direct_path, extend},
     placement::SubgoalPlacement,
 };
 
@@ -39,6 +40,10 @@ pub struct HubLabelSearch<S, I> {
     /// Scratch memory: the subgoals from the hub to the goal, in the other direction.
     chain: Vec<Vertex>,
     answer: Option<(Ends, AnswerForm)>,
+    /// The last answer between points that are no vertices.
+    between: Option<(PointEnds, Path)>,
+    /// What such a query looks around with.
+    sight: Option<PointSight>,
     to_many: ToMany,
     /// Scratch memory: the goals that are as near as the nearest one, up to rounding.
     as_near: Vec<(u32, Cost)>,
@@ -77,7 +82,8 @@ where
         let join = Join::new(&*labels);
         let (waypoints, chain, to_many) = (Vec::new(), Vec::new(), ToMany::default());
         let as_near = Vec::new();
-        Ok(Self { space, labels, join, waypoints, chain, answer: None, to_many, as_near })
+        let (answer, between, sight) = (None, None, None);
+        Ok(Self { space, labels, join, waypoints, chain, answer, between, sight, to_many, as_near })
     }
 
     /// Continues in another space, with its labels. The last answer is forgotten, the scratch memory is kept.
@@ -87,7 +93,7 @@ where
     pub fn follow(&mut self, space: S, labels: I) -> Result<(), Mismatch> {
         labels.check(&*space)?;
         self.join.fit(&*labels);
-        self.answer = None;
+        (self.answer, self.between, self.sight) = (None, None, None);
         (self.space, self.labels) = (space, labels);
         Ok(())
     }
@@ -236,7 +242,7 @@ where
     I: Deref<Target = HubLabels<P>>,
 {
     fn begin(&mut self, query: Ends, _: &mut impl Observer) -> Result<SearchStatus, QueryError> {
-        self.answer = None;
+        (self.answer, self.between) = (None, None);
         let (space, labels) = (self.space.free_space(), &*self.labels);
         if query.ids(space)?.is_none() {
             return Ok(SearchStatus::Unreachable);
@@ -255,8 +261,44 @@ where
         Ok(if self.answer.is_some() { SearchStatus::Found } else { SearchStatus::Unreachable })
     }
 
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        _: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        let Self { space, labels, join, sight, .. } = self;
+        let space = P::at_corners(space.free_space()).filter(|_| labels.k == K::Any)?;
+        (self.answer, self.between) = (None, None);
+        let places = match ends.places(space) {
+            Ok(places) => places,
+            Err(error) => return Some(Err(error)),
+        };
+        if !space.points_connected(ends.start, ends.goal) {
+            return Some(Ok(SearchStatus::Unreachable));
+        }
+        let path = match direct_between(space, ends) {
+            Some(path) => Some(path),
+            None => {
+                let marks = labels.geometry.subgoals.marks();
+                let sight = sight.get_or_insert_with(|| PointSight::new(space, marks));
+                labels.path_between(space, (sight, join), places)
+            }
+        };
+        self.between = path.map(|path| (ends, path));
+        Some(self.between.as_ref().map(|_| SearchStatus::Found).ok_or(QueryError::GaveUp { why: DAMAGED }))
+    }
+
     fn proceed(&mut self, _: &mut impl Observer) -> Result<SearchStatus, QueryError> {
-        Ok(if self.answer.is_some() { SearchStatus::Found } else { SearchStatus::Unreachable })
+        let is_found = self.answer.is_some() || self.between.is_some();
+        Ok(if is_found { SearchStatus::Found } else { SearchStatus::Unreachable })
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        match &self.between {
+            Some((ends, path)) if at == ends.goal => Some(path.clone()),
+            Some((ends, _)) => (at == ends.start).then(|| Path::through([at])),
+            None => self.path_to(at.vertex()?),
+        }
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {

@@ -9,6 +9,7 @@ mod identity;
 mod index;
 mod interrupts;
 mod labels;
+mod points;
 mod reachability;
 mod shared;
 mod snapshots;
