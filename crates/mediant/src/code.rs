@@ -71,6 +71,8 @@ pub enum ErrorCode {
     ScenarioFormat,
     /// A query without a start or a goal.
     NoEnd,
+    /// An end lies between vertices, for an engine whose paths start and end at vertices.
+    Between,
     /// A tolerance, a limit, a radius or a spacing that is negative, or no number.
     Number,
     /// A step of a search that was never begun.
@@ -122,6 +124,7 @@ names!(ErrorCode:
     MapFormat => "map-format",
     ScenarioFormat => "scenario-format",
     NoEnd => "no-end",
+    Between => "between-vertices",
     Number => "number",
     NotBegun => "not-begun",
     Memory => "memory",
@@ -259,6 +262,7 @@ const fn of_query(error: &QueryError) -> ErrorCode {
         QueryError::GaveUp { .. } => ErrorCode::GaveUp,
         QueryError::OtherGoals => ErrorCode::Mismatch,
         QueryError::NoEnd { .. } => ErrorCode::NoEnd,
+        QueryError::Between { .. } => ErrorCode::Between,
         QueryError::Tolerance | QueryError::CostLimit => ErrorCode::Number,
         QueryError::NotBegun => ErrorCode::NotBegun,
         QueryError::Smoothing => ErrorCode::EngineWithout,

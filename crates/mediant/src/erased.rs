@@ -2,8 +2,10 @@
 
 use std::any::Any;
 
-use mediant_grid::{Identity, Vertex};
-use mediant_search::{Answer, Ends, Guarantee, Observer, Path, Planner as Search, QueryError, SearchStatus};
+use mediant_grid::{Identity, Point, Vertex};
+use mediant_search::{
+    Answer, Ends, Guarantee, Observer, Path, Planner as Search, PointEnds, QueryError, SearchStatus,
+};
 
 /// A search that can be `dyn`. Observers are `dyn` too, so that each search is compiled only twice: without
 /// an observer, and in steps with one. An observed search costs dynamic calls for each event; at once it is
@@ -20,6 +22,13 @@ pub(crate) trait Erased: Any {
     /// [`Search::begin`].
     fn begin(&mut self, query: Ends, observer: &mut dyn Observer) -> Result<SearchStatus, QueryError>;
 
+    /// [`Search::begin_at`].
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut dyn Observer,
+    ) -> Option<Result<SearchStatus, QueryError>>;
+
     /// [`Search::begin_from`].
     fn begin_from(
         &mut self,
@@ -33,6 +42,9 @@ pub(crate) trait Erased: Any {
 
     /// [`Search::path_to`].
     fn path_to(&mut self, at: Vertex) -> Option<Path>;
+
+    /// [`Search::path_to_point`].
+    fn path_to_point(&mut self, at: Point) -> Option<Path>;
 
     /// [`Search::guarantee`].
     fn guarantee(&self) -> Guarantee;
@@ -54,6 +66,14 @@ impl<S: Search + Any> Erased for S {
         Search::begin(self, query, &mut observer)
     }
 
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        mut observer: &mut dyn Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        Search::begin_at(self, ends, &mut observer)
+    }
+
     fn begin_from(
         &mut self,
         starts: &[Vertex],
@@ -69,6 +89,10 @@ impl<S: Search + Any> Erased for S {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         Search::path_to(self, at)
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        Search::path_to_point(self, at)
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -88,6 +112,14 @@ impl Search for Dynamic<'_> {
         self.0.begin(query, observer)
     }
 
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        self.0.begin_at(ends, observer)
+    }
+
     fn begin_from(
         &mut self,
         starts: &[Vertex],
@@ -103,6 +135,10 @@ impl Search for Dynamic<'_> {
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         self.0.path_to(at)
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        self.0.path_to_point(at)
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -82,7 +82,7 @@ impl Exceptions {
             let (map, placement) =
                 (Map::from(Arc::clone(change.of_grid().after())), space.motion().rules.placement());
             let ends = query.starts().iter().chain(query.goals());
-            let shut: Vec<_> = ends.filter_map(|&end| shut_cell(&map, placement, end)).collect();
+            let shut: Vec<_> = ends.filter_map(|end| shut_cell(&map, placement, end.vertex()?)).collect();
             // The map between the two edits is given up, so that the second one takes its place.
             drop(map);
             change = change.edit_cells(shut.into_iter().map(|cell| (cell, false)))?;

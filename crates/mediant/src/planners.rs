@@ -8,7 +8,7 @@ use std::{
     },
 };
 
-use mediant_grid::Vertex;
+use mediant_grid::Point;
 use mediant_search::{Answer, Path, Query, QueryError};
 
 use crate::{error::Error, index::Index, planner::Planner};
@@ -176,11 +176,7 @@ impl Planners {
     ///
     /// # Errors
     /// As for [`Planner::find`].
-    pub fn path(
-        &self,
-        start: impl Into<Vertex>,
-        goal: impl Into<Vertex>,
-    ) -> Result<Option<Path>, QueryError> {
+    pub fn path(&self, start: impl Into<Point>, goal: impl Into<Point>) -> Result<Option<Path>, QueryError> {
         self.with(|planner| planner.path(start, goal))
     }
 

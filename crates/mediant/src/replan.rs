@@ -1,7 +1,7 @@
 //! Paths of agents while the map changes: replan only when that is needed.
 
 use mediant_grid::Mismatch;
-use mediant_search::{Answer, Ends, Path, QueryError};
+use mediant_search::{Answer, Path, PointEnds, QueryError};
 
 use crate::{change::Change, error::Error, planner::Planner};
 
@@ -61,7 +61,7 @@ impl Planner {
             return Err(Mismatch { prepared, belongs_to, other, other_belongs_to: after }.into());
         }
         let holds = change.check(path).is_ok();
-        let (Some(&start), Some(&goal)) = (path.waypoints().first(), path.waypoints().last()) else {
+        let (Some(start), Some(goal)) = (path.start(), path.goal()) else {
             return Ok(Replanned::Unreachable);
         };
         if holds && path.cost() <= change.least_by_freed(path) {
@@ -101,7 +101,7 @@ impl Planner {
     /// As for [`find`](Self::find) from the start to the goal. A path without waypoints is unreachable.
     pub fn mend(&mut self, path: &Path) -> Result<Answer, QueryError> {
         let held = self.index().space().check(path);
-        let (Some(&start), Some(&goal)) = (path.waypoints().first(), path.waypoints().last()) else {
+        let (Some(start), Some(goal)) = (path.start(), path.goal()) else {
             return Ok(Answer::Unreachable);
         };
         let Err(broken) = held else {
@@ -110,19 +110,19 @@ impl Planner {
             return if path.cost().is_finite() {
                 Ok(Answer::Found(path))
             } else {
-                self.find(Ends::new(start, goal))
+                self.find(PointEnds::new(start, goal))
             };
         };
-        let kept = Path::new(path.waypoints().iter().take(broken.holds_up_to()).copied().collect());
+        let kept = Path::through(path.points().take(broken.holds_up_to()));
         let kept = self.index().space().measured(kept);
-        if let Some(&from) = kept.waypoints().last().filter(|&&from| from != start) {
-            let rest = self.find(Ends::new(from, goal))?;
+        if let Some(from) = kept.goal().filter(|&from| from != start) {
+            let rest = self.find(PointEnds::new(from, goal))?;
             let whole = rest.path().and_then(|rest| kept.joined(rest).ok());
             // At a closed gap the two may not meet.
             if let Some(whole) = whole.filter(|whole| self.index().space().check(whole).is_ok()) {
                 return Ok(Answer::Found(whole));
             }
         }
-        self.find(Ends::new(start, goal))
+        self.find(PointEnds::new(start, goal))
     }
 }

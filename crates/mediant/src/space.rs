@@ -6,9 +6,9 @@ use std::sync::{Arc, OnceLock};
 use mediant_costs::CostGraph;
 use mediant_grid::{
     Centers, Change, Corners, FreeSpace, GridGraph, Identity, Interrupt, Interrupted, Placement,
-    PlacementKind, Rules, Vertex,
+    PlacementKind, Point, Rules, Vertex,
 };
-use mediant_moves::FiniteK;
+use mediant_moves::{FiniteK, K};
 use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
@@ -226,38 +226,52 @@ impl Space {
         Identity { map: Some(self.map().id()), rules, k: Some(k) }
     }
 
-    /// Whether a path may stand on this vertex; false outside the map. A vertex on a closed gap is free, too,
+    /// Whether a path may stand on this vertex, at any angle on this point; false outside the map, and of a
+    /// point that is no vertex where paths start and end at vertices. A vertex on a closed gap is free, too,
     /// but a path starts or ends there only through the vertex's own cell, and if that is blocked, not at
     /// all: it is [`connected`](Self::connected) to no other vertex then.
     #[must_use]
-    pub fn is_free(&self, at: impl Into<Vertex>) -> bool {
+    pub fn is_free(&self, at: impl Into<Point>) -> bool {
         let at = at.into();
-        match self.placed() {
-            Placed::Centers(layers) => layers.free.is_free(at),
-            Placed::Corners(layers) => layers.free.is_free(at),
+        match (self.placed(), at.vertex()) {
+            (Placed::Centers(layers), Some(at)) => layers.free.is_free(at),
+            (Placed::Corners(layers), Some(at)) => layers.free.is_free(at),
+            (Placed::Corners(layers), None) if self.takes_points() => layers.free.point_is_free(at),
+            (_, None) => false,
         }
     }
 
-    /// Whether there is a path over N(k) from one vertex to another, in constant time. (At k = 2 where
+    /// Whether paths start and end at any point of the free space: at any angle.
+    fn takes_points(&self) -> bool {
+        self.motion().k == K::Any
+    }
+
+    /// Whether there is a path over N(k) from one vertex to another, at any angle from one point to another, in
+    /// constant time. (At k = 2 where
     /// corners are always cut, paths at any angle connect more than this.)
     #[must_use]
-    pub fn connected(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
+    pub fn connected(&self, from: impl Into<Point>, to: impl Into<Point>) -> bool {
         let (from, to) = (from.into(), to.into());
-        match self.placed() {
-            Placed::Centers(layers) => layers.free.connected(from, to),
-            Placed::Corners(layers) => layers.free.connected(from, to),
+        match (self.placed(), from.vertex().zip(to.vertex())) {
+            (Placed::Centers(layers), Some((from, to))) => layers.free.connected(from, to),
+            (Placed::Corners(layers), Some((from, to))) => layers.free.connected(from, to),
+            (Placed::Corners(layers), None) if self.takes_points() => layers.free.points_connected(from, to),
+            (_, None) => false,
         }
     }
 
-    /// Whether the straight segment between two vertices obeys the rules of motion. It is judged for itself:
+    /// Whether the straight segment between two vertices, at any angle between two points, obeys the rules of
+    /// motion. It is judged for itself:
     /// a closed gap that it passes is in its way, one at which it begins or ends is not.
     /// [`check`](Self::check) judges whole paths.
     #[must_use]
-    pub fn sees(&self, from: impl Into<Vertex>, to: impl Into<Vertex>) -> bool {
+    pub fn sees(&self, from: impl Into<Point>, to: impl Into<Point>) -> bool {
         let (from, to) = (from.into(), to.into());
-        match self.placed() {
-            Placed::Centers(layers) => layers.free.sees(from, to),
-            Placed::Corners(layers) => layers.free.sees(from, to),
+        match (self.placed(), from.vertex().zip(to.vertex())) {
+            (Placed::Centers(layers), Some((from, to))) => layers.free.sees(from, to),
+            (Placed::Corners(layers), Some((from, to))) => layers.free.sees(from, to),
+            (Placed::Corners(layers), None) if self.takes_points() => layers.free.point_sees(from, to),
+            (_, None) => false,
         }
     }
 

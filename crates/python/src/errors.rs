@@ -1,7 +1,7 @@
 //! The library's errors as the exceptions of `mediant.errors`.
 
 use mediant::{
-    Error, ErrorCode, Vertex,
+    Error, ErrorCode, Point, Vertex,
     call::Spelling,
     errors::{BrokenPath, QueryError},
 };
@@ -37,6 +37,7 @@ const fn class(code: ErrorCode) -> &'static str {
         | ErrorCode::GoalOutside
         | ErrorCode::GaveUp
         | ErrorCode::NoEnd
+        | ErrorCode::Between
         | ErrorCode::Number
         | ErrorCode::NotBegun => "QueryError",
         ErrorCode::IndexDamaged | ErrorCode::IndexEngine => "IndexFileError",
@@ -140,17 +141,19 @@ pub(crate) fn made<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs
 }
 
 /// (row, column) where the library writes (x, y).
-const fn swapped(at: Vertex) -> Vertex {
-    Vertex::new(at.y, at.x)
+const fn swapped(at: Point) -> Point {
+    let (x, y) = at.parts();
+    Point::from_parts(y, x)
 }
 
 /// The error, with its points as (row, column).
 const fn in_rows(error: QueryError) -> QueryError {
     match error {
         QueryError::Outside { end, at, last } => {
-            QueryError::Outside { end, at: swapped(at), last: swapped(last) }
+            QueryError::Outside { end, at: swapped(at), last: Vertex::new(last.y, last.x) }
         }
         QueryError::Blocked { end, at } => QueryError::Blocked { end, at: swapped(at) },
+        QueryError::Between { end, at } => QueryError::Between { end, at: swapped(at) },
         QueryError::NothingFree { end, at } => QueryError::NothingFree { end, at: swapped(at) },
         error => error,
     }
@@ -161,6 +164,7 @@ fn broken_in_rows(error: BrokenPath) -> BrokenPath {
     use mediant::grid::Obstruction;
     match error {
         BrokenPath::Outside { index, at, holds } => BrokenPath::Outside { index, at: swapped(at), holds },
+        BrokenPath::Between { index, at, holds } => BrokenPath::Between { index, at: swapped(at), holds },
         BrokenPath::Blocked { end, at, holds } => BrokenPath::Blocked { end, at: swapped(at), holds },
         BrokenPath::Segment { index, from, to, by } => {
             let by = match by {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant::{K, Path, Space, Vertex, errors::BrokenPath};
+use mediant::{K, Path, Point, Space, Vertex, errors::BrokenPath};
 
 /// Costs that differ less, as a share of one of them, are the same.
 const NEAR: f64 = 1e-9;
@@ -40,10 +40,10 @@ impl Fault {
     }
 
     /// The segment, from 0, with its ends.
-    pub(crate) const fn segment(&self) -> Option<(usize, Vertex, Vertex)> {
+    pub(crate) fn segment(&self) -> Option<(usize, Point, Point)> {
         match *self {
-            Self::Broken(BrokenPath::Segment { index, from, to, .. })
-            | Self::Move { index, from, to, .. } => Some((index, from, to)),
+            Self::Broken(BrokenPath::Segment { index, from, to, .. }) => Some((index, from, to)),
+            Self::Move { index, from, to, .. } => Some((index, from.into(), to.into())),
             Self::Broken(_) | Self::Cost { .. } => None,
         }
     }

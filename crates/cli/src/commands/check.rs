@@ -2,7 +2,7 @@
 
 use std::{io, io::Write, sync::Arc};
 
-use mediant::{K, Motion, Path, PlacementKind, Space};
+use mediant::{K, Motion, Path, PlacementKind, Point, Space};
 use mediant_formats::{Ground, PlacedPatch};
 use serde::Serialize;
 
@@ -34,9 +34,9 @@ struct PathLine<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     segment: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    from: Option<[i32; 2]>,
+    from: Option<Point>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    to: Option<[i32; 2]>,
+    to: Option<Point>,
     #[serde(skip_serializing_if = "Option::is_none")]
     cell: Option<[i32; 2]>,
     /// By the costs of cells, or by the elevations, where there are such.
@@ -249,8 +249,8 @@ fn path_line(file: &str, index: usize, fault: Option<Fault>, cost: Option<f64>) 
         holds: fault.is_none(),
         holds_up_to: fault.and_then(|fault| fault.holds_up_to()),
         segment: segment.map(|(index, ..)| index),
-        from: segment.map(|(_, from, _)| [from.x, from.y]),
-        to: segment.map(|(.., to)| [to.x, to.y]),
+        from: segment.map(|(_, from, _)| from),
+        to: segment.map(|(.., to)| to),
         cell: fault.and_then(|fault| fault.cell()).map(|(x, y)| [x, y]),
         cost,
         error: fault.map(|fault| fault.to_string()),

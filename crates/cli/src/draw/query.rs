@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant::{
-    Planner, Query, Setup, Vertex,
+    Planner, Point, Query, Setup, Vertex,
     search::{NodeEvent, Observer},
 };
 use mediant_formats::{Picture, PictureError};
@@ -38,7 +38,7 @@ impl Drawing<'_> {
             canvas.shade(|x, y| land.share(x, y));
         }
         canvas.path(waypoints, Stroke::Solid, INKS.best);
-        canvas.ends(self.query.starts(), self.query.goals());
+        canvas.ends(&vertices(self.query.starts()), &vertices(self.query.goals()));
         writeln!(screen)?;
         canvas.write(screen)
     }
@@ -68,9 +68,7 @@ impl Drawing<'_> {
         // Where a path was found, its own ends count: those that were asked for may have been moved.
         picture = match (waypoints.first(), waypoints.last()) {
             (Some(&start), Some(&goal)) => picture.start(start).goal(goal),
-            _ => {
-                picture.starts(self.query.starts().iter().copied()).goals(self.query.goals().iter().copied())
-            }
+            _ => picture.starts(vertices(self.query.starts())).goals(vertices(self.query.goals())),
         };
         let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
         let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k());
@@ -88,4 +86,9 @@ impl Observer for Searched {
     fn expanded(&mut self, node: NodeEvent) {
         self.expanded.push(node.at);
     }
+}
+
+/// The ends of a query, which on a command line are vertices.
+fn vertices(ends: &[Point]) -> Vec<Vertex> {
+    ends.iter().filter_map(|at| at.vertex()).collect()
 }

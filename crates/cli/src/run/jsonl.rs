@@ -355,10 +355,10 @@ struct QueryLine<'a> {
     goal: [i32; 2],
     /// All starts that were asked for; only in a run with wishes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    starts: Option<Vec<[i32; 2]>>,
+    starts: Option<&'a [Point]>,
     /// All goals that were asked for; only in a run with wishes.
     #[serde(skip_serializing_if = "Option::is_none")]
-    goals: Option<Vec<[i32; 2]>>,
+    goals: Option<&'a [Point]>,
     status: Status,
     /// The engine that answered; only where cells count otherwise for the query, and on an index of subgoals
     /// that followed an edit.
@@ -432,8 +432,8 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             index: item.index,
             start: pair(start),
             goal: pair(goal),
-            starts: has_wishes.then(|| pairs(query.starts())),
-            goals: has_wishes.then(|| pairs(query.goals())),
+            starts: has_wishes.then(|| query.starts()),
+            goals: has_wishes.then(|| query.goals()),
             searched_by: searched_by.map(Engine::name),
             status: match answer {
                 Ok(QueryAnswer::Found(_)) => Status::Found,

@@ -8,14 +8,15 @@ use crate::{map::NamedMap, terminal::numbers::rounded};
 /// reason. Under `--world` they say it in meters, too.
 pub(crate) fn explain(error: QueryError, map: &NamedMap, placement: PlacementKind) -> String {
     let QueryError::Blocked { end, at } = error else { return error.to_string() };
-    let reason = if map.radius > 0.0 && placement.is_free(&map.ground, at) {
+    let vertex = at.floor();
+    let reason = if map.radius > 0.0 && placement.is_free(&map.ground, vertex) {
         let meters = map.frame.map(|frame| rounded(map.radius * frame.resolution()));
         let meters = meters.map_or_else(String::new, |meters| format!(" ({meters} m)"));
         format!("the {end} {at} is too near to an obstacle for a radius of {:.4} cells{meters}", map.radius)
     } else {
         error.to_string()
     };
-    let free = nearest_free(&map.grid, placement, at);
+    let free = nearest_free(&map.grid, placement, vertex);
     let nearest = free.map_or_else(String::new, |free| format!("; the nearest one is {free}"));
     let Some(frame) = map.frame else { return reason + &nearest };
     let in_world = |at: Vertex| {
@@ -24,7 +25,7 @@ pub(crate) fn explain(error: QueryError, map: &NamedMap, placement: PlacementKin
     };
     let nearest_in_world =
         free.map_or_else(String::new, |free| format!(", the nearest one at {}", in_world(free)));
-    format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(at))
+    format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(vertex))
 }
 
 /// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none

@@ -3,8 +3,10 @@
 
 use std::{any::Any, sync::Arc};
 
-use mediant_grid::{Interrupt, Interrupted, Vertex};
-use mediant_search::{Ends, Guarantee, Observer, Path, Planner as Search, QueryError, SearchStatus};
+use mediant_grid::{Interrupt, Interrupted, Point, Vertex};
+use mediant_search::{
+    Ends, Guarantee, Observer, Path, Planner as Search, PointEnds, QueryError, SearchStatus,
+};
 use mediant_subgoal::{EarlierMap, EarlierSearch, SubgoalPlacement};
 
 use super::{Boxed, EngineIndex, boxed, following};
@@ -130,8 +132,20 @@ impl Search for Other {
         Dynamic(&mut *self.0).proceed(observer)
     }
 
+    fn begin_at(
+        &mut self,
+        ends: PointEnds,
+        observer: &mut impl Observer,
+    ) -> Option<Result<SearchStatus, QueryError>> {
+        self.0.begin_at(ends, observer)
+    }
+
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
         self.0.path_to(at)
+    }
+
+    fn path_to_point(&mut self, at: Point) -> Option<Path> {
+        self.0.path_to_point(at)
     }
 
     fn solve(&mut self, query: Ends) -> Result<mediant_search::Answer, QueryError> {

@@ -5,9 +5,10 @@ mod steps;
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Placement, Vertex};
+use mediant_grid::{FreeSpace, Identity, Placement, Point};
 use mediant_search::{
-    Answer, Counters, Ends, Guarantee, Observer, Path, Planner as _, Query, QueryError, Search, Smoothing,
+    Answer, Counters, Guarantee, Observer, Path, Planner as _, PointEnds, Query, QueryError, Search,
+    Smoothing,
 };
 
 use crate::{
@@ -170,6 +171,9 @@ impl Planner {
     pub fn find(&mut self, query: impl Into<Query>) -> Result<Answer, QueryError> {
         let query = query.into();
         let Some(ends) = query.as_ends() else {
+            if let Some(ends) = query.as_points() {
+                return self.find_between(ends);
+            }
             self.begin(query)?;
             return self.finish();
         };
@@ -177,6 +181,14 @@ impl Planner {
         self.check_smoothing()?;
         let answer = self.search.solve(ends);
         self.smoothed(answer)
+    }
+
+    /// Answers a query between points of which one at least is no vertex.
+    fn find_between(&mut self, ends: PointEnds) -> Result<Answer, QueryError> {
+        self.begun = None;
+        self.check_smoothing()?;
+        let answer = Dynamic(&mut *self.search).solve_at(ends);
+        self.smoothed(answer.unwrap_or_else(|| Err(ends.between())))
     }
 
     /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
@@ -195,8 +207,8 @@ impl Planner {
     /// As for [`find`](Self::find).
     pub fn path(
         &mut self,
-        start: impl Into<Vertex>,
-        goal: impl Into<Vertex>,
+        start: impl Into<Point>,
+        goal: impl Into<Point>,
     ) -> Result<Option<Path>, QueryError> {
         Ok(self.find(Query::new(start, goal))?.into_path())
     }
@@ -221,13 +233,15 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`find`](Self::find).
-    pub fn distance(&mut self, ends: impl Into<Ends>) -> Result<Option<f64>, QueryError> {
+    pub fn distance(&mut self, ends: impl Into<PointEnds>) -> Result<Option<f64>, QueryError> {
         let ends = ends.into();
-        if self.smooth.is_some() {
-            return Ok(self.find(ends)?.cost());
+        match ends.vertices().filter(|_| self.smooth.is_none()) {
+            Some(ends) => {
+                self.begun = None;
+                self.search.distance(ends)
+            }
+            None => Ok(self.find(ends)?.cost()),
         }
-        self.begun = None;
-        self.search.distance(ends)
     }
 
     /// Answers a query and reports the events of the search. Where cells have costs, events count these in

@@ -20,6 +20,7 @@ mod mistakes;
 mod odd_input;
 mod options;
 mod planners;
+mod points;
 mod queries;
 mod replan;
 mod serialized;

@@ -73,6 +73,8 @@ fn in_requests() -> Vec<Mistake> {
     vec![
         (Code::NoEnd, find(Query::between(none, start))),
         (Code::NoEnd, find(Query::between(start, none).snap().nearest())),
+        (Code::Between, find(Query::new((0.5, 0), (1, 0)))),
+        (Code::Between, find(Query::new((0, 0), (1, 0.25)).nearest())),
         (Code::Number, find(ends.tolerance(f64::NAN))),
         (Code::Number, find(ends.within(Limits::new().cost(-1.0)))),
         (Code::NotBegun, step()),
@@ -145,7 +147,7 @@ fn codes_keep_their_names() {
         "map-size map-ragged edit-outside k motion unknown-name setup-text engine-option engine-k \
          engine-rules engine-without mismatch start-blocked goal-blocked start-outside goal-outside gave-up \
          index-range index-options index-damaged index-engine file-missing file-unreadable \
-         file-unwritable map-format scenario-format no-end number not-begun memory cancelled \
+         file-unwritable map-format scenario-format no-end between-vertices number not-begun memory cancelled \
          stopped argument broken-path map-tile cost other"
     );
 }

@@ -390,7 +390,7 @@ fn a_tolerance_is_the_radius_of_a_disc() {
                 let is_near = |at: &Vertex| at.to(goal).norm_squared() as f64 <= radius * radius;
                 let goals: Vec<Vertex> = world.oracle.free_vertices().filter(is_near).collect();
                 if goals.is_empty() {
-                    let error = Err(QueryError::Blocked { end: End::Goal, at: goal });
+                    let error = Err(QueryError::Blocked { end: End::Goal, at: goal.into() });
                     assert_eq!(planner.find(query.clone()), error, "{}", world.text(setup, &query));
                     if radius > 1.0 {
                         let query = query.nearest();

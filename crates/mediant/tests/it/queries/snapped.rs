@@ -53,7 +53,7 @@ fn a_map_without_a_free_vertex_has_no_end_to_snap_to() {
             for (start, goal) in [((0, 0), (1, 1)), ((i32::MIN, 0), (1, i32::MAX))] {
                 let at = Vertex::new(0, 0);
                 let query = Query::new(start, goal).snap().nearest().tolerance(2.0);
-                let error = Err(QueryError::NothingFree { end: End::Start, at });
+                let error = Err(QueryError::NothingFree { end: End::Start, at: at.into() });
                 assert_eq!(planner.find(query), error, "{setup}");
             }
         }
@@ -85,8 +85,8 @@ fn wrong_ends_are_named() {
             }
             for (at, is_outside) in [(wall, false), (beyond, true)] {
                 let error = |end: End| match is_outside {
-                    true => QueryError::Outside { end, at, last },
-                    false => QueryError::Blocked { end, at },
+                    true => QueryError::Outside { end, at: at.into(), last },
+                    false => QueryError::Blocked { end, at: at.into() },
                 };
                 is_wrong(Query::between([free, at], [free]), error(End::Start));
                 is_wrong(Query::between([free, at], [free, at]).nearest(), error(End::Start));
@@ -94,7 +94,7 @@ fn wrong_ends_are_named() {
                 is_wrong(Query::new(at, free).nearest().tolerance(1e9), error(End::Start));
                 is_wrong(Query::new(free, at).tolerance(0.0), error(End::Goal));
             }
-            let outside = QueryError::Outside { end: End::Goal, at: beyond, last };
+            let outside = QueryError::Outside { end: End::Goal, at: beyond.into(), last };
             is_wrong(Query::new(free, beyond).nearest(), outside);
             is_wrong(Query::new(free, beyond).tolerance(1e9), outside);
             for radius in [f64::NAN, -0.5, f64::NEG_INFINITY] {
