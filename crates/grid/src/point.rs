@@ -8,9 +8,9 @@ use crate::{Coordinate, Vertex};
 /// and a whole coordinate is told apart from one that is nearly so. A [`Vertex`] is a point with whole
 /// coordinates.
 ///
-/// Pairs and arrays of numbers, integers or floats, are points, and go where a call takes `impl Into<Point>`. A
-/// number is rounded to the nearest multiple; one that is too large for every map, or no number, becomes a
-/// coordinate outside of every map.
+/// Pairs and arrays of numbers, integers or floats, are points, and go where a call takes `impl
+/// Into<Point>`. A number is rounded to the nearest multiple; one that is too large for every map, or no
+/// number, becomes a coordinate outside of every map.
 ///
 /// As text, and by serde, a whole coordinate is an integer and another one the shortest decimal.
 ///

@@ -1,12 +1,12 @@
 //! Points of free space that need not be vertices: whether they are free, connected, and see each other.
 //!
 //! At any angle a path may start and end anywhere. It obeys the rules of corner placement all the same: a
-//! segment may touch blocked cells, but neither meet the open interior of one nor run along an edge that two of
-//! them share.
+//! segment may touch blocked cells, but neither meet the open interior of one nor run along an edge that two
+//! of them share.
 //!
 //! **In integers.** Coordinates are multiples of 1/1024, at most 2²⁵ of them. A segment crosses a line at a
-//! quotient whose numerator is a sum of two products of two coordinates, below 2⁵², and whose denominator is a
-//! coordinate times 2¹⁰, at most 2³⁵. So floors, ceilings and 'is it a vertex?' are exact in 64 bits.
+//! quotient whose numerator is a sum of two products of two coordinates, below 2⁵², and whose denominator is
+//! a coordinate times 2¹⁰, at most 2³⁵. So floors, ceilings and 'is it a vertex?' are exact in 64 bits.
 
 use crate::{BitMatrix, Corners, FreeSpace, Obstruction, Placement, Point, Vertex, sight::Place};
 
@@ -38,8 +38,8 @@ impl FreeSpace<Corners> {
         self.place(at).is_some_and(|at| at.is_free(self.grid().rows()))
     }
 
-    /// Whether a path at any angle leads from one free point to another, in constant time. Of vertices this is
-    /// [`connected`](Self::connected).
+    /// Whether a path at any angle leads from one free point to another, in constant time. Of vertices this
+    /// is [`connected`](Self::connected).
     #[must_use]
     pub fn points_connected(&self, from: Point, to: Point) -> bool {
         if from == to {

@@ -246,9 +246,8 @@ impl Space {
         self.motion().k == K::Any
     }
 
-    /// Whether there is a path over N(k) from one vertex to another, at any angle from one point to another, in
-    /// constant time. (At k = 2 where
-    /// corners are always cut, paths at any angle connect more than this.)
+    /// Whether there is a path over N(k) from one vertex to another, at any angle from one point to another,
+    /// in constant time. (At k = 2 where corners are always cut, paths at any angle connect more than this.)
     #[must_use]
     pub fn connected(&self, from: impl Into<Point>, to: impl Into<Point>) -> bool {
         let (from, to) = (from.into(), to.into());

@@ -36,8 +36,8 @@ impl Metric {
         }
     }
 
-    /// The length of the way between two points where no obstacle is in the way; of points that are no vertices
-    /// the straight line, rounded down.
+    /// The length of the way between two points where no obstacle is in the way; of points that are no
+    /// vertices the straight line, rounded down.
     #[must_use]
     pub fn between(self, from: Point, to: Point) -> Cost {
         match from.vertex().zip(to.vertex()) {

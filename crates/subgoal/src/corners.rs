@@ -32,7 +32,7 @@ pub struct SightTables {
     tangents: [BitMatrix; 2],
 }
 
-/// What a query looks around with whose ends need not be vertices: tables of a map, and scratch memory.
+/// Sight of ends that need not be vertices: tables of a map, and scratch memory.
 #[derive(Debug)]
 pub(crate) struct PointSight {
     tables: SightTables,

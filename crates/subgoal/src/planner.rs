@@ -46,7 +46,8 @@ impl QueryEnd {
         }
     }
 
-    /// A lower bound on the cost of a path from a vertex to here; between places it is the cost of a free line.
+    /// A lower bound on the cost of a path from a vertex to here; between places it is the cost of a free
+    /// line.
     #[inline]
     fn estimate(self, metric: Metric, from: Vertex) -> Cost {
         match self {
@@ -88,7 +89,7 @@ pub struct SubgoalAStar<S, I, P: SubgoalPlacement> {
     arcs: Vec<PackedArc>,
     waypoints: Vec<Vertex>,
     query: Option<[QueryEnd; 2]>,
-    /// What a query looks around with whose ends are no vertices.
+    /// Sight of ends that are no vertices.
     sight: Option<PointSight>,
     status: SearchStatus,
     /// Whether `waypoints` are a path that was found without a search.

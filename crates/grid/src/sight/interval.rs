@@ -2,9 +2,9 @@
 
 use super::place::Place;
 
-/// A ray from a place of the map, its root, given by the vector from the root to another place on it, in parts
-/// of a cell ([`Place`]), or by any other vector of this direction. `dy` > 0 counts away from the root, whether
-/// up or down.
+/// A ray from a place of the map, its root, given by the vector from the root to another place on it, in
+/// parts of a cell ([`Place`]), or by any other vector of this direction. `dy` > 0 counts away from the
+/// root, whether up or down.
 ///
 /// The end of an interval is never kept as a point, but as the ray that bounds it: the vector from the root
 /// to the corner at which the interval was clipped or, if a path turned at the root, the vector from the
@@ -26,8 +26,8 @@ impl Ray {
     /// Straight away from the root.
     pub const VERTICAL: Self = Self { dx: 0, dy: 1 };
 
-    /// The ray through a vertex in column `x`, from a root at `root`, `n` away from the vertex's line: both in
-    /// parts.
+    /// The ray through a vertex in column `x`, from a root at `root`, `n` away from the vertex's line: both
+    /// in parts.
     #[inline]
     #[must_use]
     pub const fn through(x: i32, root: i32, n: i32) -> Self {
@@ -54,23 +54,24 @@ impl Ray {
 /// Where a ray crosses a line, in columns: a fixed-point number with 44 binary places whose floor, ceiling
 /// and 'is it a vertex?' are exact.
 ///
-/// One of the two places that a ray is made of is a vertex, so from that vertex on it moves by dx / dy columns
-/// a line. Therefore it crosses a line at a rational with denominator at most 2²⁵: either at a vertex, or at
-/// least 2⁻²⁵ away from every vertex. A crossing is that rational plus 2⁻²⁷, up or down an error below 2⁻²⁷:
+/// One of the two places that a ray is made of is a vertex, so from that vertex on it moves by dx / dy
+/// columns a line. Therefore it crosses a line at a rational with denominator at most 2²⁵: either at a
+/// vertex, or at least 2⁻²⁵ away from every vertex. A crossing is that rational plus 2⁻²⁷, up or down an
+/// error below 2⁻²⁷:
 ///
 /// - *Anew*, it is the root's column, exact, and n · (dx / dy), the quotient and the product rounded to 53
-///   binary digits. On the map this is at most 2¹⁵ columns, so it is off by at most 2⁻³⁷; cutting off after 44
-///   binary places adds 2⁻⁴⁴.
+///   binary digits. On the map this is at most 2¹⁵ columns, so it is off by at most 2⁻³⁷; cutting off after
+///   44 binary places adds 2⁻⁴⁴.
 /// - *A step* is a quotient s, cut off. n steps are off by n · s · 2⁻⁵³ < 2⁻³⁴, as the ray is on the map or a
 ///   few lines further, and by n · 2⁻⁴⁴ ≤ 2⁻²⁹.
 ///
 /// Together that is less than 2⁻²⁸. So the fractional part of a crossing is between 0 and 2⁻²⁶ at a vertex,
 /// and between 2⁻²⁶ and 1 elsewhere.
 ///
-/// **Flat rays.** From a root 1/1024 beside a line, a ray may move by 2²⁵ columns a line. A step is cut to one
-/// more than 2¹⁵ columns: wherever it begins on the map, it ends outside, as the ray does, and on the same
-/// side. So is the way from the root to the first line. So crossings stay within 2¹⁵ columns of the map for a step, and within 2¹⁹ for eight at once; their
-/// fixed-point values stay below 2⁶³.
+/// **Flat rays.** From a root 1/1024 beside a line, a ray may move by 2²⁵ columns a line. A step is cut to
+/// one more than 2¹⁵ columns: wherever it begins on the map, it ends outside, as the ray does, and on the
+/// same side. So is the way from the root to the first line. So crossings stay within 2¹⁵ columns of the map
+/// for a step, and within 2¹⁹ for eight at once; their fixed-point values stay below 2⁶³.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing(i64);
 
@@ -245,8 +246,8 @@ mod tests {
 
     const SIDE: i32 = crate::Grid::MAX_SIDE as i32;
 
-    /// A ray from a root through a vertex in column `through` on line 0, or with a direction of its own from a
-    /// root that is a vertex of line 0: `slope` is what it moves in a line, as a quotient.
+    /// A ray from a root through a vertex in column `through` on line 0, or with a direction of its own from
+    /// a root that is a vertex of line 0: `slope` is what it moves in a line, as a quotient.
     #[derive(Clone, Copy, Debug)]
     struct Line {
         ray: Ray,

@@ -3,8 +3,8 @@
 //! [`line_of_sight`] tests one segment, [`segment_cells`] lists the cells that it meets. A
 //! [`VisibilitySweep`] finds everything that a vertex sees among the vertices of a set.
 //!
-//! All of it counts in parts of a cell, 1/1024: so what sees need not be a vertex. [`point_cells`] lists the cells
-//! of a segment between such points.
+//! All of it counts in parts of a cell, 1/1024: so what sees need not be a vertex. [`point_cells`] lists the
+//! cells of a segment between such points.
 //!
 //! The module also has the parts of both that the searches of this workspace are made of; they are hidden
 //! from the documentation, because their arguments must fit together in ways that only their callers ensure.

@@ -72,8 +72,8 @@ impl Place {
 }
 
 impl Place {
-    /// The line at it, or the nearest one behind it for what leaves it downwards (`down` = 1) or upwards (−1):
-    /// the row of cells that it enters then is the one ahead of this line.
+    /// The line at it, or the nearest one behind it for what leaves it downwards (`down` = 1) or upwards
+    /// (−1): the row of cells that it enters then is the one ahead of this line.
     #[inline]
     #[must_use]
     pub const fn line(self, down: i32) -> i32 {
@@ -81,8 +81,8 @@ impl Place {
         if down > 0 { above } else { below }
     }
 
-    /// The run of free cells, of a row that touches it, in which it lies: the columns of vertices where the run
-    /// starts and ends. They are equal if there is none, or the second one is less.
+    /// The run of free cells, of a row that touches it, in which it lies: the columns of vertices where the
+    /// run starts and ends. They are equal if there is none, or the second one is less.
     #[inline]
     #[must_use]
     pub fn run(self, row: impl Runs) -> (i32, i32) {

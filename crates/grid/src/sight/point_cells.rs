@@ -2,11 +2,11 @@
 
 use crate::Point;
 
-/// The cells that the straight segment between two points touches at any angle, from its start to its end, as
-/// (x, y): those whose open interior it meets, and along a grid line those on both sides, of each step first
-/// the one above or to the left. A segment of length 0 touches the cell of its point, the one below and to the
-/// right if it is on a line. Points are less than 2²⁰ cells apart along each axis and from (0, 0); cells of
-/// others are not told.
+/// The cells that the straight segment between two points touches at any angle, from its start to its end,
+/// as (x, y): those whose open interior it meets, and along a grid line those on both sides, of each step
+/// first the one above or to the left. A segment of length 0 touches the cell of its point, the one below
+/// and to the right if it is on a line. Points are less than 2²⁰ cells apart along each axis and from (0,
+/// 0); cells of others are not told.
 ///
 /// ```
 /// use mediant_grid::sight::point_cells;

@@ -185,8 +185,8 @@ impl VisibilitySweep {
     }
 }
 
-/// The vertex from which a place sees along its line to the right (`right` = 1) or to the left (−1), itself or
-/// the nearest one behind it; `None` for a place between two lines.
+/// The vertex from which a place sees along its line to the right (`right` = 1) or to the left (−1), itself
+/// or the nearest one behind it; `None` for a place between two lines.
 fn on_line(from: Place, right: i32) -> Option<Vertex> {
     let ((left, after), (y, below)) = (from.columns(), from.lines());
     (y == below).then_some(Vertex::new(if right > 0 { left } else { after }, y))

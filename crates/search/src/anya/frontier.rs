@@ -25,8 +25,9 @@ pub(super) struct Root<L> {
 /// A search node: the part of a line that a root sees.
 ///
 /// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex
-/// at which a path may turn on the root's own line; `left.dx` is its distance to the right, in parts of a cell.
-/// A node on line [`FINAL`](Self::FINAL) is the goal, between vertices, seen by a root at its row of cells.
+/// at which a path may turn on the root's own line; `left.dx` is its distance to the right, in parts of a
+/// cell. A node on line [`FINAL`](Self::FINAL) is the goal, between vertices, seen by a root at its row of
+/// cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,
@@ -140,8 +141,8 @@ impl<N: Norm> Frontier<N> {
         self.roots[number as usize]
     }
 
-    /// The vertex of the root before it; `None` for the start. A start between vertices stands for the nearest
-    /// one above and to the left.
+    /// The vertex of the root before it; `None` for the start. A start between vertices stands for the
+    /// nearest one above and to the left.
     pub(super) fn parent(&self, number: u32) -> Option<Vertex> {
         (number != 0).then(|| self.root(self.root(number).parent).at.floor())
     }

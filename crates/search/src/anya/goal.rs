@@ -9,11 +9,11 @@ use super::cone::Cone;
 
 /// The goal of a search.
 ///
-/// A vertex lies on the line of a cone's interval, and the interval holds it or not. A place between vertices
-/// is touched by one row of cells, or by two if it lies on a line. A root sees it across the line before such a
-/// row if it lies between the rays of the interval, and if the straight way from the root enters the row
-/// through the run of free cells in which the goal lies: two determinants a side, and no crossing. A root at
-/// the border of the row, or in it, sees the goal if both lie in one run.
+/// A vertex lies on the line of a cone's interval, and the interval holds it or not. A place between
+/// vertices is touched by one row of cells, or by two if it lies on a line. A root sees it across the line
+/// before such a row if it lies between the rays of the interval, and if the straight way from the root
+/// enters the row through the run of free cells in which the goal lies: two determinants a side, and no
+/// crossing. A root at the border of the row, or in it, sees the goal if both lie in one run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
     pub(super) at: Place,
@@ -101,8 +101,8 @@ impl Goal {
             && is_past(gaps.1, last, straight)
     }
 
-    /// Whether a successor's interval on that line may hold the goal. Of a place between vertices that is left
-    /// open.
+    /// Whether a successor's interval on that line may hold the goal. Of a place between vertices that is
+    /// left open.
     #[inline]
     pub(super) fn may_be_in(&self, left: Crossing, right: Crossing) -> bool {
         self.vertex.is_none_or(|at| left.ceil() <= at.x && at.x <= right.floor())

@@ -64,10 +64,11 @@
 //! through the interval before the row of cells that it touches, or from that row's border (module `goal`).
 //! Then its node's f is exact, as where an interval holds the goal.
 //!
-//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two places of the
-//! map of which one is a vertex, meets a line. Its floor, its ceiling, and whether it is a vertex are computed exactly; no two
-//! ends are ever compared within a tolerance. The proof, also that nothing overflows on the largest map, is
-//! in [`mediant_grid::sight`]. At any angle lengths are sums of square roots, in `f64`; over N(k) integers.
+//! **Exactness.** An interval end is the rational where a ray, stored as the vector between two places of
+//! the map of which one is a vertex, meets a line. Its floor, its ceiling, and whether it is a vertex are
+//! computed exactly; no two ends are ever compared within a tolerance. The proof, also that nothing
+//! overflows on the largest map, is in [`mediant_grid::sight`]. At any angle lengths are sums of square
+//! roots, in `f64`; over N(k) integers.
 //!
 //! **Ties.** The open list orders by f, then h (over N(k): then the line), then the age of the node.
 //!

@@ -34,8 +34,8 @@ pub(crate) use self::{
 /// corners its upper left corner. Between centers add ½ to both to have (0, 0) at the corner of the map.
 ///
 /// **Paths between points.** An any-angle path may start and end between vertices. Then
-/// [`points`](Self::points) has all that it leads through; [`waypoints`](Self::waypoints), which are vertices,
-/// are those of a path all of whose points are vertices, and such a path has none.
+/// [`points`](Self::points) has all that it leads through; [`waypoints`](Self::waypoints), which are
+/// vertices, are those of a path all of whose points are vertices, and such a path has none.
 ///
 /// **Cost and length** are one number, unless the path is one on a cost surface, where each cell has a cost
 /// of its own: then [`cost`](Self::cost) is that of the surface, and [`length`](Self::length) the length all
@@ -264,8 +264,8 @@ impl Path {
 }
 
 impl Path {
-    /// The rest of the path from a point on it, where the path passes it first; `None` for a point that is not
-    /// on the path. Its cost is its length: on a cost surface, which the path does not know, measure it
+    /// The rest of the path from a point on it, where the path passes it first; `None` for a point that is
+    /// not on the path. Its cost is its length: on a cost surface, which the path does not know, measure it
     /// anew.
     ///
     /// ```

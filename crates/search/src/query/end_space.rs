@@ -1,4 +1,4 @@
-//! What is asked of a map about the ends of paths.
+//! The ends that paths on a map may have.
 
 use mediant_grid::{FreeSpace, Placement, Point, Vertex};
 

@@ -33,8 +33,8 @@ pub use self::{
 /// Without wishes it costs nothing more than its [`Ends`]. They are a query, too, as are a pair and an array
 /// of two vertices or points.
 ///
-/// At any angle an end may be any point of the free space, such as (2.03, 0.5). It is rounded to a multiple of
-/// 1/1024 of a cell, by at most 1/2048 along each axis; the path begins and ends with the rounded point.
+/// At any angle an end may be any point of the free space, such as (2.03, 0.5). It is rounded to a multiple
+/// of 1/1024 of a cell, by at most 1/2048 along each axis; the path begins and ends with the rounded point.
 ///
 /// ```
 /// use mediant_search::{Limits, Query};

@@ -4,10 +4,14 @@
 //! lead on over a few of them only. So the steps that look at all of them are short loops without branches,
 //! which could not be predicted.
 
-use mediant_grid::{FreeSpace, Vector, Vertex, sight::Place};
-use mediant_moves::{Cost, FiniteK, K};
+use mediant_grid::{FreeSpace, Vertex, sight::Place};
+use mediant_moves::Cost;
 
-use super::{HubLabels, pack::MOST_COST_BITS};
+use super::{
+    HubLabels,
+    candidates::{Candidates, Joint, Line, Step, cells},
+    pack::MOST_COST_BITS,
+};
 use crate::placement::SubgoalPlacement;
 
 /// Where the shortest path between two ends turns.
@@ -32,65 +36,6 @@ pub(super) struct Join {
     /// The same for ends that need not be vertices.
     points: [Candidates<Line>; 2],
     hubs: Hubs,
-}
-
-/// The displacement from an end to a subgoal.
-type Step = (i32, i32);
-
-/// The line from a point to a subgoal.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    /// Its length in fixed point, rounded down.
-    cost: u64,
-    /// Its displacement in cells.
-    x: f32,
-    y: f32,
-}
-
-/// How an end is joined to a subgoal.
-trait Joint: Copy {
-    /// The cost of the line.
-    fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64;
-
-    /// The direction in which a path arrives at the subgoal, by which it is known how it may lead on; zero where
-    /// it may lead on in any way. A path that is not taut is no shortest one, so it does no harm.
-    fn arrival(self) -> Vector;
-}
-
-impl Joint for Step {
-    #[inline]
-    fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64 {
-        index.metric.estimate(Vector::new(self.0, self.1)).to_bits()
-    }
-
-    #[inline]
-    fn arrival(self) -> Vector {
-        Vector::new(self.0, self.1)
-    }
-}
-
-/// The direction would not fit 16 bits.
-impl Joint for Line {
-    fn cost<P: SubgoalPlacement>(self, _: &HubLabels<P>) -> u64 {
-        self.cost
-    }
-
-    fn arrival(self) -> Vector {
-        Vector::ZERO
-    }
-}
-
-/// The slots that an end of a query is joined to.
-#[derive(Debug)]
-struct Candidates<J> {
-    slots: Vec<u32>,
-    /// How it is joined to their subgoals.
-    steps: Vec<J>,
-    /// Lower bounds on the costs of paths over them, in cells.
-    bounds: Vec<f32>,
-    count: usize,
-    /// The numbers of those over which paths lead on.
-    leading: Vec<u32>,
 }
 
 /// The cheapest known ways from the start to hubs.
@@ -184,13 +129,6 @@ impl Join {
     }
 }
 
-/// A displacement in parts of a cell, in cells.
-fn cells(v: Vector) -> (f32, f32) {
-    const PART: f64 = 1.0 / Place::parts(1) as f64;
-    let cells = |parts: i32| (f64::from(parts) * PART) as f32;
-    (cells(v.x), cells(v.y))
-}
-
 impl Join {
     /// Finds the hubs of an end, and the least costs of paths to them.
     pub(super) fn hubs_of<P: SubgoalPlacement>(
@@ -223,154 +161,6 @@ impl Join {
             index.visit(candidates.slots[i as usize], step, |hub, _| take(hub));
         }
     }
-}
-
-impl Candidates<Line> {
-    fn none() -> Self {
-        let (slots, steps, bounds, leading) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { slots, steps, bounds, count: 0, leading }
-    }
-
-    fn clear(&mut self) {
-        self.slots.clear();
-        self.steps.clear();
-        self.count = 0;
-    }
-
-    /// Adds the sides of a subgoal that a place sees: the one from which it comes, or both where it lies on the
-    /// vertical through the subgoal.
-    fn add<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, from: Place, id: u32) {
-        let to = from.to(Place::of(index.geometry.subgoals.vertex(id)));
-        let (x, y) = cells(to);
-        let cost = index.metric.estimate(to).to_bits() >> Place::PLACES;
-        let (first, last) = match to.x {
-            1.. => (0, 0),
-            0 => (0, P::SIDES - 1),
-            _ => (P::SIDES - 1, P::SIDES - 1),
-        };
-        for side in first..=last {
-            self.slots.push(id * P::SIDES + side);
-            self.steps.push(Line { cost, x, y });
-        }
-        self.count = self.slots.len();
-        self.bounds.resize(self.count, 0.0);
-        self.leading.resize(self.count, 0);
-    }
-
-    /// Finds bounds on the costs of paths to the other end, which is at `other` from here, in cells.
-    fn find_bounds(&mut self, (x, y): (f32, f32)) {
-        let straight = |x: f32, y: f32| (x * x + y * y).sqrt() * BELOW;
-        for (bound, line) in self.bounds[..self.count].iter_mut().zip(&self.steps) {
-            *bound = straight(line.x, line.y) + straight(x - line.x, y - line.y);
-        }
-    }
-}
-
-impl Candidates<Step> {
-    fn new(room: usize) -> Self {
-        let (slots, leading) = (vec![0; room], vec![0; room]);
-        Self { slots, steps: vec![(0, 0); room], bounds: vec![0.0; room], count: 0, leading }
-    }
-
-    /// Makes room for so many slots.
-    fn fit(&mut self, room: usize) {
-        let Self { slots, steps, bounds, count, leading } = self;
-        slots.resize(room, 0);
-        steps.resize(room, (0, 0));
-        bounds.resize(room, 0.0);
-        leading.resize(room, 0);
-        *count = 0;
-    }
-
-    /// Looks up what an end sees.
-    #[inline]
-    fn find<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, space: &FreeSpace<P>, end: Vertex) {
-        self.count = index.geometry.seen.slots(end, &mut self.slots);
-        if space.is_closed_gap(end) {
-            self.keep_legal(index, space, end);
-        }
-        for (slot, step) in self.slots[..self.count].iter().zip(&mut self.steps) {
-            let v = end.to(index.geometry.subgoals.vertex(slot / P::SIDES));
-            *step = (v.x, v.y);
-        }
-    }
-
-    /// A path leaves a closed gap through the quadrant of the vertex's own cell.
-    #[cold]
-    fn keep_legal<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, space: &FreeSpace<P>, end: Vertex) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            let at = index.geometry.subgoals.vertex(self.slots[i] / P::SIDES);
-            self.slots[kept] = self.slots[i];
-            kept += usize::from(space.may_turn(None, end, Some(at)) && space.sees(end, at));
-        }
-        self.count = kept;
-    }
-
-    /// Finds bounds on the costs of paths to the other end, which is at `other` from here.
-    #[inline]
-    fn find_bounds(&mut self, k: K, other: Vector) {
-        let bounds = self.bounds[..self.count].iter_mut().zip(&self.steps);
-        let (x, y) = (other.x, other.y);
-        match k {
-            K::Finite(FiniteK::N4) => {
-                bounds.for_each(|(bound, v)| *bound = manhattan(*v) + manhattan((x - v.0, y - v.1)));
-            }
-            K::Finite(FiniteK::N8) => {
-                bounds.for_each(|(bound, v)| *bound = octile(*v) + octile((x - v.0, y - v.1)));
-            }
-            _ => bounds.for_each(|(bound, v)| *bound = straight(*v) + straight((x - v.0, y - v.1))),
-        }
-    }
-}
-
-impl<J: Joint> Candidates<J> {
-    /// Finds the candidates over which shortest paths can lead on to other subgoals. Returns their number.
-    #[inline]
-    fn find_leading<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) -> usize {
-        let mut count = 0;
-        for ((slot, &step), i) in self.slots[..self.count].iter().zip(&self.steps).zip(0..) {
-            let side = index.packed.sides[*slot as usize];
-            self.leading[count] = i;
-            count += usize::from(P::leads_on(index.k, side.bends(), step.arrival(), side.edges));
-        }
-        count
-    }
-
-    /// Puts the leading one with the least bound first.
-    #[inline]
-    fn leading_first(&mut self, leading: usize) {
-        let bounds = &self.bounds;
-        let bound = |&i: &u32| bounds[i as usize];
-        let leading = &mut self.leading[..leading];
-        let least =
-            (1..leading.len()).fold(0, |a, b| if bound(&leading[b]) < bound(&leading[a]) { b } else { a });
-        if least > 0 {
-            leading.swap(0, least);
-        }
-    }
-}
-
-/// Less than 1 by more than the relative error of a bound in single precision.
-const BELOW: f32 = 1.0 - 1e-6;
-
-#[inline]
-fn manhattan((x, y): (i32, i32)) -> f32 {
-    (x.abs() + y.abs()) as f32 * BELOW
-}
-
-#[inline]
-fn octile((x, y): (i32, i32)) -> f32 {
-    let (x, y) = (x.abs(), y.abs());
-    // Half of √2 − 1 is with the sum, half with the difference.
-    ((x + y) as f32 * 0.707_106_77 + (x - y).abs() as f32 * 0.292_893_2) * BELOW
-}
-
-/// Not more than h_k for any k.
-#[inline]
-fn straight((x, y): (i32, i32)) -> f32 {
-    let (x, y) = (x as f32, y as f32);
-    (x * x + y * y).sqrt() * BELOW
 }
 
 /// At least a cost, in cells.

@@ -35,6 +35,7 @@
 
 mod between;
 mod build;
+mod candidates;
 mod chain;
 mod codec;
 mod join;

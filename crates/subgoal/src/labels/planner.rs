@@ -42,7 +42,7 @@ pub struct HubLabelSearch<S, I> {
     answer: Option<(Ends, AnswerForm)>,
     /// The last answer between points that are no vertices.
     between: Option<(PointEnds, Path)>,
-    /// What such a query looks around with.
+    /// Sight of such ends.
     sight: Option<PointSight>,
     to_many: ToMany,
     /// Scratch memory: the goals that are as near as the nearest one, up to rounding.
