@@ -16,6 +16,9 @@ pub(crate) trait Erased: Any {
     /// [`Search::solve`].
     fn solve(&mut self, query: Ends) -> Result<Answer, QueryError>;
 
+    /// [`Search::seek`].
+    fn seek(&mut self, query: Ends) -> Result<bool, QueryError>;
+
     /// [`Search::distance`].
     fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError>;
 
@@ -46,6 +49,9 @@ pub(crate) trait Erased: Any {
     /// [`Search::path_to_point`].
     fn path_to_point(&mut self, at: Point) -> Option<Path>;
 
+    /// [`Search::bends_to`].
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>>;
+
     /// [`Search::guarantee`].
     fn guarantee(&self) -> Guarantee;
 
@@ -56,6 +62,10 @@ pub(crate) trait Erased: Any {
 impl<S: Search + Any> Erased for S {
     fn solve(&mut self, query: Ends) -> Result<Answer, QueryError> {
         Search::solve(self, query)
+    }
+
+    fn seek(&mut self, query: Ends) -> Result<bool, QueryError> {
+        Search::seek(self, query, &mut ())
     }
 
     fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {
@@ -93,6 +103,10 @@ impl<S: Search + Any> Erased for S {
 
     fn path_to_point(&mut self, at: Point) -> Option<Path> {
         Search::path_to_point(self, at)
+    }
+
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>> {
+        Search::bends_to(self, at)
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -139,6 +153,10 @@ impl Search for Dynamic<'_> {
 
     fn path_to_point(&mut self, at: Point) -> Option<Path> {
         self.0.path_to_point(at)
+    }
+
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>> {
+        self.0.bends_to(at)
     }
 
     fn guarantee(&self) -> Guarantee {

@@ -72,6 +72,18 @@ pub trait Planner {
         self.path_to(at.vertex()?)
     }
 
+    /// The bends of [that path](Self::path_to), from the start to the vertex, if the planner knows them
+    /// without making the path: the vertices between which it follows lines of sight. Joined by straight
+    /// segments they are a legal path at any angle, which is not longer. `None` by a planner that knows none;
+    /// then smoothing looks for them.
+    ///
+    /// The path that they make is one of the same cost over N(k), but not always the one that
+    /// [`path_to`](Self::path_to) returns.
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>> {
+        let _ = at;
+        None
+    }
+
     /// The guarantee of the paths.
     fn guarantee(&self) -> Guarantee;
 
@@ -83,13 +95,22 @@ pub trait Planner {
     /// # Errors
     /// [`QueryError`] when an end of the query is blocked or outside the map.
     fn solve_observed(&mut self, query: Ends, observer: &mut impl Observer) -> Result<Answer, QueryError> {
+        let path = if self.seek(query, observer)? { self.path_to(query.goal) } else { None };
+        Ok(path.map_or(Answer::Unreachable, Answer::Found))
+    }
+
+    /// Begins the search for an answer and finishes it, watched by an observer, which cannot pause it. Returns
+    /// whether there is a path: then [`path_to`](Self::path_to) and [`bends_to`](Self::bends_to) give it.
+    ///
+    /// # Errors
+    /// As for [`solve_observed`](Self::solve_observed).
+    fn seek(&mut self, query: Ends, observer: &mut impl Observer) -> Result<bool, QueryError> {
         let mut observer = Part::new(observer);
         let status = match self.begin(query, &mut observer)? {
             SearchStatus::Searching => self.proceed(&mut observer)?,
             status => status,
         };
-        let path = if status == SearchStatus::Found { self.path_to(query.goal) } else { None };
-        Ok(path.map_or(Answer::Unreachable, Answer::Found))
+        Ok(status == SearchStatus::Found)
     }
 
     /// Answers a query between two points; `None` by a planner whose paths start and end at vertices, unless

@@ -6,7 +6,7 @@ use mediant_grid::{FreeSpace, Identity, Mismatch, Point, Vertex, sight::Place};
 use mediant_moves::{Cost, K};
 use mediant_search::{
     Ends, Guarantee, NodeEvent, Observer, Path, Planner, PointEnds, QueryError, SearchStatus,
-    parts::{HasFreeSpace, Metric, SearchTree},
+    parts::{HasFreeSpace, Metric, SearchTree, leg_is_free},
 };
 
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
     corners::PointSight,
     edge_path::{direct_between, direct_path, extend},
     graph::SubgoalGraph,
-    placement::SubgoalPlacement,
+    placement::{EdgeCriterion, SubgoalPlacement},
 };
 
 /// An end of a query.
@@ -237,23 +237,40 @@ where
     fn path_to_point(&mut self, at: Point) -> Option<Path> {
         let [start, goal] = self.query?;
         let (from, to) = (start.point(), goal.point());
+        if from.vertex().is_some() && to.vertex().is_some() {
+            return self.vertices_to(at.vertex()?, self.graph.k).map(Path::new);
+        }
         if at == from {
             return Some(Path::through([from]));
         }
         if at == to && self.is_direct {
-            return Some(match start {
-                QueryEnd::Vertex(_) if to.vertex().is_some() => Path::new(self.waypoints.clone()),
-                _ => Path::through([from, to]),
-            });
+            return Some(Path::through([from, to]));
         }
+        let mut points = vec![from];
         match self.best.1.filter(|_| at == to && !self.is_direct) {
-            Some(meeting) => Some(self.path(start, meeting, Some(goal))),
+            Some(meeting) => {
+                self.visit(meeting, true, |_, at| points.push(at.into()));
+                points.push(to);
+            }
             None => {
                 let id = self.graph.subgoals.id(at.vertex()?).filter(|_| !self.is_direct)?;
                 self.searches[0].cost(id)?;
-                Some(self.path(start, id, None))
+                self.visit(id, false, |_, at| points.push(at.into()));
             }
         }
+        Some(Path::straightened(points))
+    }
+
+    /// Between subgoals along taut edges the path follows lines of sight. Where it is one of the empty grid,
+    /// start and goal need not see each other; then it has no subgoals.
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>> {
+        let query = self.query.filter(|_| self.graph.criterion == EdgeCriterion::Taut)?;
+        let [QueryEnd::Vertex(start), QueryEnd::Vertex(goal)] = query else { return None };
+        if at == goal && at != start && self.is_direct {
+            let space = self.space.free_space();
+            return leg_is_free(space, None, start, goal, None).then(|| vec![start, goal]);
+        }
+        self.vertices_to(at, K::Any)
     }
 
     fn guarantee(&self) -> Guarantee {
@@ -342,24 +359,38 @@ where
         status
     }
 
+    /// The best path found to a vertex, over N(k) or by straight segments along the edges.
+    fn vertices_to(&mut self, at: Vertex, k: K) -> Option<Vec<Vertex>> {
+        let [QueryEnd::Vertex(start), QueryEnd::Vertex(goal)] = self.query? else { return None };
+        if at == goal && self.is_direct {
+            return Some(self.waypoints.clone());
+        }
+        if at == start {
+            return Some(vec![start]);
+        }
+        match self.best.1.filter(|_| at == goal && !self.is_direct) {
+            Some(meeting) => Some(self.path(start, meeting, Some(goal), k)),
+            None => {
+                let id = self.graph.subgoals.id(at).filter(|_| !self.is_direct)?;
+                self.searches[0].cost(id)?;
+                Some(self.path(start, id, None, k))
+            }
+        }
+    }
+
     /// The path to a subgoal, and on to the goal if the searches meet there.
-    fn path(&mut self, start: QueryEnd, meeting: u32, goal: Option<QueryEnd>) -> Path {
-        let (QueryEnd::Vertex(from), None | Some(QueryEnd::Vertex(_))) = (start, goal) else {
-            let mut points = vec![start.point()];
-            self.visit(meeting, goal.is_some(), |_, at| points.push(at.into()));
-            return Path::straightened(points.into_iter().chain(goal.map(QueryEnd::point)));
-        };
+    fn path(&mut self, start: Vertex, meeting: u32, goal: Option<Vertex>, k: K) -> Vec<Vertex> {
         let mut waypoints = std::mem::take(&mut self.waypoints);
         waypoints.clear();
-        waypoints.push(from);
+        waypoints.push(start);
         self.visit(meeting, goal.is_some(), |(space, graph), at| {
-            extend(&mut waypoints, space, (graph.k, graph.criterion), at);
+            extend(&mut waypoints, space, (k, graph.criterion), at);
         });
-        if let Some(QueryEnd::Vertex(goal)) = goal {
-            extend(&mut waypoints, self.space.free_space(), (self.graph.k, self.graph.criterion), goal);
+        if let Some(goal) = goal {
+            extend(&mut waypoints, self.space.free_space(), (k, self.graph.criterion), goal);
         }
         self.waypoints = waypoints;
-        Path::new(self.waypoints.clone())
+        self.waypoints.clone()
     }
 
     /// Visits the subgoals of the path to a subgoal, and those on to the goal if the searches meet there.

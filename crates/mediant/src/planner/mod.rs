@@ -5,7 +5,7 @@ mod steps;
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Placement, Point};
+use mediant_grid::{FreeSpace, Identity, Placement, Point, Vertex};
 use mediant_search::{
     Answer, Counters, Guarantee, Observer, Path, Planner as _, PointEnds, Query, QueryError, Search,
     Smoothing,
@@ -49,7 +49,7 @@ use crate::{
 pub struct Planner {
     index: Index,
     search: Box<dyn Erased + Send>,
-    /// Smooths a path; `None` for paths as they are found.
+    /// Smooths paths; `None` for paths as they are found.
     smooth: Option<Smoother>,
     guarantee: Guarantee,
     /// The search that was begun last.
@@ -134,11 +134,23 @@ impl Index {
 }
 
 /// Smooths a path.
-type Smoother = Box<dyn Fn(&Path) -> Path + Send>;
+type Smoother = Box<dyn Fn(Rough<'_>) -> Path + Send>;
+
+/// A path to be smoothed.
+enum Rough<'p> {
+    /// As it was found.
+    Found(&'p Path),
+    /// The bends of a path: see [`Search::bends_to`](mediant_search::Planner::bends_to).
+    Bends(&'p [Vertex]),
+}
 
 fn smoother(space: &Space, smoothing: Smoothing) -> Smoother {
     if let Some(surface) = space.surface().cloned() {
-        return Box::new(move |path| surface.smooth(path));
+        return Box::new(move |path| match path {
+            Rough::Found(path) => surface.smooth(path),
+            // Bends are those of a path on a map without costs; no planner on costs knows any.
+            Rough::Bends(bends) => surface.smooth(&Path::new(bends.to_vec())),
+        });
     }
     match space.placed() {
         Placed::Centers(layers) => smoother_in(&layers.free, smoothing),
@@ -148,7 +160,20 @@ fn smoother(space: &Space, smoothing: Smoothing) -> Smoother {
 
 fn smoother_in<P: Placement>(free: &Arc<FreeSpace<P>>, smoothing: Smoothing) -> Smoother {
     let free = Arc::clone(free);
-    Box::new(move |path| smoothing.apply(&free, path))
+    Box::new(move |path| match path {
+        Rough::Found(path) => smoothing.apply(&free, path),
+        Rough::Bends(bends) => smoothing.apply_to_bends(&free, bends),
+    })
+}
+
+/// The smoothed answer of a search that has ended.
+fn smoothed_to(search: &mut dyn Erased, smooth: &Smoother, goal: Vertex, is_found: bool) -> Answer {
+    let smoothed = |search: &mut dyn Erased| match search.bends_to(goal) {
+        Some(bends) => Some(smooth(Rough::Bends(&bends))),
+        None => Some(smooth(Rough::Found(&search.path_to(goal)?))),
+    };
+    let path = if is_found { smoothed(search) } else { None };
+    path.map_or(Answer::Unreachable, Answer::Found)
 }
 
 impl Planner {
@@ -179,8 +204,9 @@ impl Planner {
         };
         self.begun = None;
         self.check_smoothing()?;
-        let answer = self.search.solve(ends);
-        self.smoothed(answer)
+        let Some(smooth) = &self.smooth else { return self.search.solve(ends) };
+        let is_found = self.search.seek(ends)?;
+        Ok(smoothed_to(&mut *self.search, smooth, ends.goal, is_found))
     }
 
     /// Answers a query between points of which one at least is no vertex.
@@ -262,8 +288,10 @@ impl Planner {
         self.begun = None;
         self.check_smoothing()?;
         let mut observer = observer;
-        let answer = Dynamic(&mut *self.search).solve_observed(ends, &mut observer);
-        self.smoothed(answer)
+        let mut search = Dynamic(&mut *self.search);
+        let Some(smooth) = &self.smooth else { return search.solve_observed(ends, &mut observer) };
+        let is_found = mediant_search::Planner::seek(&mut search, ends, &mut observer)?;
+        Ok(smoothed_to(search.0, smooth, ends.goal, is_found))
     }
 
     /// Answers a query and counts the events of the search.
@@ -287,6 +315,8 @@ impl Planner {
     /// Smooths the path, if the planner smooths its paths.
     fn smoothed(&self, answer: Result<Answer, QueryError>) -> Result<Answer, QueryError> {
         let Some(smooth) = &self.smooth else { return answer };
+        let bends = self.begun.as_ref().and_then(Search::bends);
+        let smooth = |path: &Path| smooth(bends.map_or(Rough::Found(path), Rough::Bends));
         Ok(match answer? {
             Answer::Found(path) => Answer::Found(smooth(&path)),
             Answer::Nearest(path) => Answer::Nearest(smooth(&path)),

@@ -4,7 +4,7 @@ use mediant_grid::{FreeSpace, Placement, Vertex};
 use mediant_moves::K;
 use mediant_search::{Answer, Guarantee, Observer, Path, Query, QueryError, Search};
 
-use super::Planner;
+use super::{Planner, Rough};
 use crate::{
     erased::Dynamic,
     setup::Setup,
@@ -48,13 +48,14 @@ impl Planner {
         // On costs the moves of N(k) connect all that segments do.
         let is_any_angle = unsmoothed.paths() == K::Any && !space.has_costs();
         let query = query.into();
-        self.begun = Some(match space.placed() {
+        let begun = match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };
                 search_in(space, free, guarantee, query)
             }
             Placed::Corners(layers) => search_in(space, &layers.free, guarantee, query),
-        }?);
+        }?;
+        self.begun = Some(if self.smooth.is_some() { begun.keeping_bends() } else { begun });
         Ok(())
     }
 
@@ -103,8 +104,10 @@ impl Planner {
     #[must_use]
     pub fn best(&mut self) -> Option<Path> {
         let Self { begun, search, smooth, .. } = self;
-        let best = begun.as_ref()?.best(&mut Dynamic(&mut **search));
-        Some(smooth.as_ref().map_or_else(|| best.clone(), |smooth| smooth(&best)))
+        let begun = begun.as_ref()?;
+        let best = begun.best(&mut Dynamic(&mut **search));
+        let Some(smooth) = smooth else { return Some(best) };
+        Some(smooth(begun.bends().map_or(Rough::Found(&best), Rough::Bends)))
     }
 
     /// The path by which the search that was begun has reached a vertex, as the search found it: for most

@@ -3,14 +3,15 @@
 use std::sync::{Arc, Mutex};
 
 use mediant::{
-    Engine, Error, Motion, Setup,
+    Answer, Engine, Error, Map, Motion, Query, Setup, Smoothing,
     errors::SetupError,
-    options::Levels,
+    options::{ConfiguredEngine, Levels, SubgoalOptions},
     search::{Progress, Stage},
 };
 use mediant_grid::{Centers, GridGraph, PlacementKind, Rules};
 use mediant_moves::{FiniteK, K};
-use mediant_search::Ends;
+use mediant_oracle::{Rng, random_grid};
+use mediant_search::{Counters, Ends};
 use mediant_subgoal::{Hierarchy, SubgoalGraph};
 
 use super::{build, index, k, levels, map, read, setup};
@@ -142,4 +143,52 @@ fn progress_is_reported() {
         assert!(!steps.is_empty() && steps.iter().all(|step| step.done <= step.total), "{steps:?}");
     }
     assert_eq!(told("jps-plus"), []);
+}
+
+/// A path that is smoothed from the bends that the search knows: in steps, observed and among several goals
+/// the same as at once.
+#[test]
+fn smoothed_paths_of_subgoals_are_the_same_in_steps() {
+    let (mut found, mut shorter) = (0, 0);
+    for seed in 0..12 {
+        let map = Map::from(random_grid(seed).0);
+        for (levels, smoothing) in [
+            (Levels::Labels, Smoothing::Linear),
+            (Levels::Labels, Smoothing::Taut),
+            (Levels::Contracted, Smoothing::Linear),
+            (Levels::Number(2.try_into().expect("two")), Smoothing::Linear),
+        ] {
+            let options = SubgoalOptions { levels: Some(levels), memory: None };
+            let engine = ConfiguredEngine::Subgoal(options);
+            let plain = Setup::new(engine, Motion::new(K::N16, super::OPEN));
+            let setup = Setup { smoothing: Some(smoothing), ..plain };
+            let mut planner = setup.planner(&map).expect("a planner");
+            let mut unsmoothed = plain.planner(&map).expect("a planner");
+            let mut rng = Rng::new(seed);
+            let mut any = || (rng.below(map.width() + 1) as i32, rng.below(map.height() + 1) as i32);
+            for _ in 0..30 {
+                let (start, goal, case) = (any(), any(), format!("{setup}, seed {seed}"));
+                let Ok(expected) = planner.find([start, goal]) else { continue };
+                let observed = planner.find_observed([start, goal], &mut Counters::default());
+                assert_eq!(observed.as_ref(), Ok(&expected), "{case}: {start:?} to {goal:?}");
+                planner.begin(Query::new(start, goal)).expect("both ends are free");
+                let answer = loop {
+                    if let Some(answer) = planner.step(1).expect("a search") {
+                        break answer;
+                    }
+                };
+                assert_eq!(answer, expected, "{case}: {start:?} to {goal:?}");
+                let several = planner.find(Query::between([start], [goal, goal]));
+                assert_eq!(several.as_ref(), Ok(&expected), "{case}: {start:?} to {goal:?}");
+                if let Answer::Found(path) = &expected {
+                    assert_eq!(planner.best().as_ref(), Some(path), "{case}: {start:?} to {goal:?}");
+                    let plain = unsmoothed.find([start, goal]).expect("both ends are free");
+                    let plain = plain.cost().expect("there is a path");
+                    assert!(path.cost() <= plain + 1e-9, "{case}: {start:?} to {goal:?}");
+                    (found, shorter) = (found + 1, shorter + usize::from(path.cost() < plain - 1e-9));
+                }
+            }
+        }
+    }
+    assert!(found > 500 && shorter > 50, "{found} paths, {shorter} made shorter");
 }

@@ -64,6 +64,9 @@ pub struct Search {
     backward: Backward,
     progress: Progress,
     found: Option<Found>,
+    /// Whether the bends of the path that was found are kept, and these.
+    keeps_bends: bool,
+    bends: Option<Vec<Vertex>>,
     /// Of the pairs whose search met the limit on the cost: the path to the vertex nearest to its goal, with
     /// its distance.
     partial: Option<(Cost, Path)>,
@@ -166,9 +169,24 @@ impl Search {
             backward,
             progress,
             found: None,
+            keeps_bends: false,
+            bends: None,
             partial: None,
             beyond_limit: None,
         })
+    }
+
+    /// Asks the planner for the [bends](Planner::bends_to) of each path that it finds, too.
+    #[must_use]
+    pub fn keeping_bends(self) -> Self {
+        Self { keeps_bends: true, ..self }
+    }
+
+    /// The [bends](Planner::bends_to) of the [best path](Self::best), if it leads to a goal, the planner knows
+    /// them, and they are [kept](Self::keeping_bends).
+    #[must_use]
+    pub fn bends(&self) -> Option<&[Vertex]> {
+        self.bends.as_deref()
     }
 
     /// Makes at most `expansions` expansions; fewer if the observer pauses the search. Returns the answer
@@ -316,6 +334,9 @@ impl Search {
             let is_better = |known: &Found| (cost, pair.rank) < (known.cost, known.rank);
             if self.found.as_ref().is_none_or(is_better) {
                 self.progress.known = cost;
+                let knows = self.keeps_bends && !self.is_backward();
+                let goal = pair.ends.vertices().filter(|_| knows).map(|ends| ends.goal);
+                self.bends = goal.and_then(|goal| planner.bends_to(goal));
                 self.found = Some(Found { cost, rank: pair.rank, path });
             }
         }

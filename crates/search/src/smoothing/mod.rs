@@ -12,6 +12,7 @@ use std::ops::Deref;
 use mediant_grid::{FreeSpace, GridGraph, Identity, Mismatch, Placement, Vertex, names};
 
 pub use self::{linear::smooth, taut::pull_taut};
+use self::{linear::smooth_bends, taut::pull_bends};
 
 use crate::{
     guarantee::Guarantee,
@@ -56,6 +57,37 @@ impl Smoothing {
         Path::new(match self {
             Self::Linear => smooth(space, path.waypoints()),
             Self::Taut => pull_taut(space, path.waypoints()),
+        })
+    }
+
+    /// Smooths a path that is known by its bends: see [`Planner::bends_to`], which may be relied on. They
+    /// are all that linear smoothing considers, so it tests sight once or twice for each. Bends outside the map
+    /// are left as they are.
+    ///
+    /// ```
+    /// use std::sync::Arc;
+    /// use mediant_grid::{AsciiMap, Corners, DiagonalGap, FreeSpace};
+    /// use mediant_search::Smoothing;
+    /// let map = AsciiMap::parse("
+    ///     ......
+    ///     ..#...
+    ///     ......
+    /// ")?;
+    /// let space = FreeSpace::<Corners>::new(Arc::new(map.grid), DiagonalGap::Open);
+    /// // Around the obstacle on the side where that is longer.
+    /// let bends = [(2, 3), (2, 1), (5, 1)].map(Into::into);
+    /// let path = Smoothing::Linear.apply_to_bends(&space, &bends);
+    /// assert_eq!(path.to_string(), "(2, 3) → (5, 1)");
+    /// # Ok::<(), mediant_grid::GridError>(())
+    /// ```
+    #[must_use]
+    pub fn apply_to_bends<P: Placement>(self, space: &FreeSpace<P>, bends: &[Vertex]) -> Path {
+        if bends.iter().any(|&at| space.id(at).is_none()) {
+            return Path::new(bends.to_vec());
+        }
+        Path::new(match self {
+            Self::Linear => smooth_bends(space, bends),
+            Self::Taut => pull_bends(space, bends),
         })
     }
 }
@@ -169,11 +201,12 @@ where
     }
 
     fn path_to(&mut self, at: Vertex) -> Option<Path> {
-        let path = self.planner.path_to(at)?;
-        Some(match self.smoothing {
-            Some(smoothing) => smoothing.apply(self.space.free_space(), &path),
-            None => path,
-        })
+        let Some(smoothing) = self.smoothing else { return self.planner.path_to(at) };
+        let space = self.space.free_space();
+        if let Some(bends) = self.planner.bends_to(at) {
+            return Some(smoothing.apply_to_bends(space, &bends));
+        }
+        Some(smoothing.apply(space, &self.planner.path_to(at)?))
     }
 
     fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {

@@ -5,8 +5,11 @@ use std::ops::Range;
 use mediant_grid::{FreeSpace, Placement, Point, Vector, Vertex, sight::PolygonCells};
 use mediant_moves::Cost;
 
-use super::linear::{smooth_legal, without_repetitions};
-use crate::path::{between, check};
+use super::linear::{follow_sight, is_hidden, smooth_legal, without_repetitions};
+use crate::{
+    path::{between, check},
+    segment::segment_cost,
+};
 
 /// Pulls a path taut, like a string: first [`smooth`](super::smooth), then waypoint by waypoint, until none
 /// can be left out or moved.
@@ -51,7 +54,16 @@ pub fn pull_taut<P: Placement>(space: &FreeSpace<P>, waypoints: &[Vertex]) -> Ve
     if check(space, corners.iter().map(Point::from)).is_err() {
         return waypoints.to_vec();
     }
-    let mut string = Taut { space, path: smooth_legal(space, &corners), cover: PolygonCells::default() };
+    pull(space, smooth_legal(space, &corners))
+}
+
+/// [`pull_taut`], for the bends of a path as [`Planner::bends_to`](crate::Planner::bends_to) gives them.
+pub(super) fn pull_bends<P: Placement>(space: &FreeSpace<P>, bends: &[Vertex]) -> Vec<Vertex> {
+    pull(space, follow_sight(space, bends))
+}
+
+fn pull<P: Placement>(space: &FreeSpace<P>, path: Vec<Vertex>) -> Vec<Vertex> {
+    let mut string = Taut { space, path, cover: PolygonCells::default() };
     let mut index = 1;
     while index + 1 < string.path.len() {
         if string.pull(index) {
@@ -82,7 +94,11 @@ impl<P: Placement> Taut<'_, P> {
         // Where corners are not cut, there may be sight past a staircase of which no single step can be left
         // out.
         for after in index + 1..self.path.len().min(index + 3) {
-            if self.turns_well(index..after, &[]) && self.space.sees(a, self.path[after]) {
+            let to = self.path[after];
+            if self.turns_well(index..after, &[])
+                && !is_hidden(self.space, a, b, to)
+                && self.space.sees(a, to)
+            {
                 self.path.drain(index..after);
                 return true;
             }
@@ -104,13 +120,14 @@ impl<P: Placement> Taut<'_, P> {
         if string != [b] && fits(self, &string) && self.is_seen(a, &string, c) {
             return Some(string);
         }
+        let sees = |from, to| !is_hidden(space, from, b, to) && space.sees(from, to);
         let mut one = between(a, b).map(|p| (p, p, c)).chain(between(b, c).rev().map(|q| (q, a, q)));
-        if let Some((p, ..)) = one.find(|&(p, from, to)| fits(self, &[p]) && space.sees(from, to)) {
+        if let Some((p, ..)) = one.find(|&(p, from, to)| fits(self, &[p]) && sees(from, to)) {
             return Some(vec![p]);
         }
         if let (Some(p), Some(q)) = (between(a, b).next_back(), between(b, c).next())
             && fits(self, &[p, q])
-            && space.sees(p, q)
+            && sees(p, q)
         {
             return Some(vec![p, q]);
         }
@@ -160,7 +177,7 @@ impl<P: Placement> Taut<'_, P> {
 
     /// The best of the eight vertices around a waypoint, if it makes the path shorter.
     fn best_neighbor(&self, index: usize, a: Vertex, b: Vertex, c: Vertex) -> Option<Vertex> {
-        let length = |at: Vertex| Cost::of_move(a.to(at)) + Cost::of_move(at.to(c));
+        let length = |at: Vertex| segment_cost(a.to(at)) + segment_cost(at.to(c));
         // Each of the four lengths is rounded by 2⁻³³ at most.
         let limit = length(b).to_bits().saturating_sub(4);
         let around = (-1..=1).flat_map(|y| (-1..=1).map(move |x| b + Vector::new(x, y)));

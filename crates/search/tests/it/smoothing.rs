@@ -397,6 +397,19 @@ fn closed_gaps_stay_closed() {
 }
 
 #[test]
+fn bends_outside_the_map_are_left_as_they_are() {
+    let grid = Arc::new(AsciiMap::parse(ROUND).expect("the drawing is a map").grid);
+    let space = FreeSpace::<Corners>::new(grid, DiagonalGap::Open);
+    let far = [(i32::MIN, 0), (0, 0), (i32::MAX, 6)].map(Vertex::from);
+    let near = [(2, 6), (3, 3), (4, 2), (6, 2), (7, 3), (8, 6)].map(Vertex::from);
+    for smoothing in Smoothing::ALL {
+        for bends in [&far[..], &near, &near[..1], &[]] {
+            assert_eq!(smoothing.apply_to_bends(&space, bends).waypoints(), bends, "{smoothing}");
+        }
+    }
+}
+
+#[test]
 fn planners_smooth_their_paths() {
     let grid = Arc::new(AsciiMap::parse(ROUND).expect("the drawing is a map").grid);
     let k = FiniteK::N8;

@@ -5,7 +5,8 @@ use std::ops::Deref;
 use mediant_grid::{Identity, Mismatch, PlacementKind, Point, Vertex};
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_search::{
-    Ends, Guarantee, Observer, Path, Planner, PointEnds, QueryError, SearchStatus, parts::HasFreeSpace,
+    Ends, Guarantee, Observer, Path, Planner, PointEnds, QueryError, SearchStatus,
+    parts::{HasFreeSpace, leg_is_free},
 };
 
 use super::{
@@ -17,7 +18,7 @@ use super::{
 use crate::{
     corners::PointSight,
     edge_path::{direct_between, direct_path, extend},
-    placement::SubgoalPlacement,
+    placement::{EdgeCriterion, SubgoalPlacement},
 };
 
 /// Optimal paths over N(k), or at any angle, by hub labels: no search is needed.
@@ -169,8 +170,7 @@ where
             None => return Ok(Cost::MAX),
             Some((_, AnswerForm::Direct)) => {}
             Some((query, AnswerForm::Over(meeting))) => {
-                self.waypoints.clear();
-                if !self.write(query, meeting) {
+                if !self.write(query, meeting, self.labels.k) {
                     return Err(QueryError::GaveUp { why: DAMAGED });
                 }
             }
@@ -211,11 +211,13 @@ where
         }
     }
 
-    /// Writes the path over a meeting point to `waypoints`; `false` if the labels are damaged.
-    fn write(&mut self, Ends { start, goal, .. }: Ends, meeting: Meeting) -> bool {
+    /// Writes the path over a meeting point to `waypoints`, by moves of N(k) or by straight segments between
+    /// its bends; `false` if the labels are damaged.
+    fn write(&mut self, Ends { start, goal, .. }: Ends, meeting: Meeting, k: K) -> bool {
         let Self { space, labels, waypoints, chain, .. } = self;
         let (space, labels) = (space.free_space(), &**labels);
-        let mut to = |at: Vertex| extend(waypoints, space, (labels.k, labels.criterion), at);
+        waypoints.clear();
+        let mut to = |at: Vertex| extend(waypoints, space, (k, labels.criterion), at);
         let Meeting { hub, first, last, .. } = meeting;
         let (vertex, mut is_whole) = (|id: u32| labels.geometry.subgoals.vertex(id), true);
         to(start);
@@ -309,13 +311,38 @@ where
         if at != query.goal {
             return None;
         }
-        if let AnswerForm::Over(meeting) = answer {
-            self.waypoints.clear();
-            if !self.write(query, meeting) {
-                return None;
-            }
+        if let AnswerForm::Over(meeting) = answer
+            && !self.write(query, meeting, self.labels.k)
+        {
+            return None;
         }
         Some(Path::new(self.waypoints.clone()))
+    }
+
+    /// The path turns at subgoals, between which the labels follow lines of sight. Where it is one of the
+    /// empty grid, start and goal need not see each other. Then the labels know a path of the same cost over
+    /// subgoals: of the paths of this cost, the shortest at any angle turns there alone.
+    fn bends_to(&mut self, at: Vertex) -> Option<Vec<Vertex>> {
+        let (query, answer) = self.answer.filter(|_| self.labels.criterion == EdgeCriterion::Taut)?;
+        let Ends { start, goal, .. } = query;
+        if at == start {
+            return Some(vec![at]);
+        }
+        if at != goal {
+            return None;
+        }
+        if let AnswerForm::Over(meeting) = answer {
+            return self.write(query, meeting, K::Any).then(|| self.waypoints.clone());
+        }
+        if leg_is_free(self.space.free_space(), None, start, goal, None) {
+            return Some(vec![start, goal]);
+        }
+        let meeting = self.meeting(query).ok()??;
+        // The path over N(k) stays what it is.
+        let direct = std::mem::take(&mut self.waypoints);
+        let is_whole = self.write(query, meeting, K::Any);
+        let bends = std::mem::replace(&mut self.waypoints, direct);
+        is_whole.then_some(bends)
     }
 
     fn distance(&mut self, query: Ends) -> Result<Option<f64>, QueryError> {

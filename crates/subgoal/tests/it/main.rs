@@ -12,5 +12,6 @@ mod labels;
 mod points;
 mod reachability;
 mod shared;
+mod smoothed;
 mod snapshots;
 mod theta;
