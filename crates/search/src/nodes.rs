@@ -45,49 +45,52 @@ impl<N> Node<N> {
 /// out zeros on demand. So the memory follows what searches touch, not the map, and a planner is made at
 /// once.
 ///
-/// Jumps touch few vertices, far apart, each on a page of its own on a large map. So where nodes store their
-/// parent, and the map is large, a block of 16 nodes has a place only from the first path to one of them on.
+/// Jumps touch few vertices, far apart: by id each would lie on a page of its own, and a page that is touched
+/// for the first time takes longer than all else that a short search does. So the nodes of jumps lie in
+/// blocks of eight, one block after another in the order in which searches come to them.
 #[derive(Clone, Debug)]
 pub struct NodeStore<N: ParentPointer = ()> {
     /// For each node the lower and the upper half of g, the slot, the mark, and the pointer: by id, or block
-    /// by block. The first block is of no node and stays unknown.
+    /// by block. The first block is of no vertex and stays unknown.
     nodes: Vec<N::Words>,
-    /// For each block of ids its place among those of `nodes`, 0 if it has none yet; empty if nodes are
-    /// stored by id.
+    /// For each block of ids where its nodes begin, 0 if it has none yet; empty if nodes are stored by id.
     blocks: Box<[u32]>,
     /// Vertex ids are below this.
     len: usize,
     generation: u32,
 }
 
-/// The nodes of a block.
-const BLOCK: usize = 16;
-/// The most vertices of a map whose nodes are stored by id, whatever they are.
-const MOST_BY_ID: usize = 1 << 22;
+/// The nodes of a block: so few that hardly any are of vertices that no jump comes to.
+const BLOCK: usize = 8;
+/// The most vertices of a map for whose nodes room is reserved when a store is made. (Nothing is written
+/// there.)
+const MOST_RESERVED: usize = 1 << 22;
 
 impl<N: ParentPointer> NodeStore<N> {
     /// A store for vertex ids below `len`, in which no node is known.
     #[must_use]
     pub fn new(len: usize) -> Self {
-        if N::IS_FOR_JUMPS && len > MOST_BY_ID { Self::in_blocks(len) } else { Self::by_id(len) }
+        if !N::IS_FOR_JUMPS {
+            return Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), len, generation: 1 };
+        }
+        let mut nodes = Vec::with_capacity(Self::room_for_blocks(len));
+        nodes.extend([N::UNKNOWN; BLOCK]);
+        Self { nodes, blocks: vec![0; len.div_ceil(BLOCK)].into_boxed_slice(), len, generation: 1 }
+    }
+
+    /// For how many nodes there is room in a new store of blocks.
+    const fn room_for_blocks(len: usize) -> usize {
+        if len > MOST_RESERVED { BLOCK } else { len.next_multiple_of(BLOCK) + BLOCK }
     }
 
     /// The bytes that a store for vertex ids below `len` takes when it is made; usize::MAX for more.
     #[must_use]
     pub const fn bytes(len: usize) -> usize {
-        if N::IS_FOR_JUMPS && len > MOST_BY_ID {
-            return len.div_ceil(BLOCK).saturating_mul(size_of::<u32>());
+        if !N::IS_FOR_JUMPS {
+            return len.saturating_mul(size_of::<N::Words>());
         }
-        len.saturating_mul(size_of::<N::Words>())
-    }
-
-    fn by_id(len: usize) -> Self {
-        Self { nodes: vec![N::UNKNOWN; len], blocks: Box::default(), len, generation: 1 }
-    }
-
-    fn in_blocks(len: usize) -> Self {
-        let blocks = vec![0; len.div_ceil(BLOCK)].into_boxed_slice();
-        Self { nodes: vec![N::UNKNOWN; BLOCK], blocks, len, generation: 1 }
+        let blocks = len.div_ceil(BLOCK).saturating_mul(size_of::<u32>());
+        blocks.saturating_add(Self::room_for_blocks(len).saturating_mul(size_of::<N::Words>()))
     }
 
     /// Forgets all nodes, and becomes a store for vertex ids below `len`. The memory is kept if it was one
@@ -103,44 +106,56 @@ impl<N: ParentPointer> NodeStore<N> {
     /// The place of a node among `nodes`.
     #[inline]
     fn place(&self, id: VertexId) -> usize {
-        if !N::IS_FOR_JUMPS || self.blocks.is_empty() {
+        if !N::IS_FOR_JUMPS {
             return id.index();
         }
-        place_in_block(&self.blocks, id)
+        self.blocks[id.index() / BLOCK] as usize | (id.index() % BLOCK)
     }
 
-    /// The place of a node that is to be known.
-    #[inline]
-    fn place_to_write(&mut self, id: VertexId) -> usize {
-        let place = self.place(id);
-        if N::IS_FOR_JUMPS && place < BLOCK && !self.blocks.is_empty() {
-            self.add_block(id);
-            return self.place(id);
-        }
-        place
-    }
-
-    /// Gives the block of a node a place.
+    /// Gives the block of a node a place, and returns that of the node.
     #[cold]
-    fn add_block(&mut self, id: VertexId) {
-        self.blocks[id.index() / BLOCK] = (self.nodes.len() / BLOCK) as u32;
+    #[inline(never)]
+    fn add_block(&mut self, id: VertexId) -> usize {
+        let first = self.nodes.len();
+        self.blocks[id.index() / BLOCK] = first as u32;
         self.nodes.extend([N::UNKNOWN; BLOCK]);
+        first | (id.index() % BLOCK)
     }
 
     /// Forgets all nodes, in constant time (but for one call in a million).
     pub fn start_search(&mut self) {
         if self.generation == Node::<N>::LAST_GENERATION {
-            self.nodes = vec![N::UNKNOWN; self.nodes.len()];
-            self.generation = 0;
+            *self = Self::new(self.len);
+        } else {
+            self.generation += 1;
         }
-        self.generation += 1;
     }
 
     /// The node of a vertex, if this search knows it.
     #[must_use]
     #[inline]
     pub fn get(&self, id: VertexId) -> Option<Node<N>> {
-        let words = &self.nodes[self.place(id)];
+        self.find(id).1
+    }
+
+    /// The node of a vertex, if this search knows it, and its place, by which it is written.
+    #[inline]
+    pub(crate) fn find(&self, id: VertexId) -> (NodePlace, Option<Node<N>>) {
+        let place = self.place(id);
+        (NodePlace(place), self.read(place))
+    }
+
+    /// The node of a vertex, if this search knows it; it is then in no open list.
+    #[inline]
+    pub(crate) fn close(&mut self, id: VertexId) -> Option<Node<N>> {
+        let place = self.place(id);
+        self.set_slot_at(NodePlace(place), Node::<N>::CLOSED);
+        self.read(place)
+    }
+
+    #[inline]
+    fn read(&self, place: usize) -> Option<Node<N>> {
+        let words = &self.nodes[place];
         let &[low, high, slot, mark, ..] = words.as_ref() else { return None };
         let g = Cost::from_bits(u64::from(high) << 32 | u64::from(low));
         if mark >> Node::<N>::MOVE_BITS != self.generation {
@@ -152,40 +167,56 @@ impl<N: ParentPointer> NodeStore<N> {
     /// Makes a path of cost `g` that arrives by the move `arrived_by` the best known one to a vertex.
     #[inline]
     pub fn set_path(&mut self, id: VertexId, g: Cost, arrived_by: usize, pointer: N) {
+        let place = NodePlace(self.place(id));
+        self.set_path_at((place, id), g, arrived_by, pointer);
+    }
+
+    /// [`set_path`](Self::set_path) with the place where the node was found. Returns where it is now.
+    #[inline]
+    pub(crate) fn set_path_at(
+        &mut self,
+        (NodePlace(place), id): (NodePlace, VertexId),
+        g: Cost,
+        arrived_by: usize,
+        pointer: N,
+    ) -> NodePlace {
         debug_assert!(
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
-        let place = self.place_to_write(id);
+        let place = if N::IS_FOR_JUMPS && place < BLOCK { self.add_block(id) } else { place };
         let words = &mut self.nodes[place];
         pointer.write(words);
         if let [low, high, _, mark, ..] = words.as_mut() {
             (*low, *high) = (g.to_bits() as u32, (g.to_bits() >> 32) as u32);
             *mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
         }
+        NodePlace(place)
     }
 
     /// Records the slot of a vertex in the open list.
     #[inline]
     pub fn set_slot(&mut self, id: VertexId, slot: u32) {
-        let place = self.place(id);
+        self.set_slot_at(NodePlace(self.place(id)), slot);
+    }
+
+    /// [`set_slot`](Self::set_slot) of the node at a place.
+    #[inline]
+    pub(crate) fn set_slot_at(&mut self, NodePlace(place): NodePlace, slot: u32) {
         if let [_, _, known, ..] = self.nodes[place].as_mut() {
             *known = slot;
         }
     }
 }
 
-/// The place of a node that is stored in a block. Apart, so that searches whose nodes are stored by id do not
-/// pay for it.
-#[cold]
-#[inline(never)]
-fn place_in_block(blocks: &[u32], id: VertexId) -> usize {
-    blocks[id.index() / BLOCK] as usize * BLOCK + id.index() % BLOCK
-}
+/// Where a node is stored.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodePlace(usize);
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parent::JumpParent;
 
     #[test]
     fn nodes_are_forgotten_between_searches_also_when_the_generations_run_out() {
@@ -225,35 +256,47 @@ mod tests {
         store.fit(5);
         assert!((0..5).all(|id| store.get(VertexId(id)).is_none()));
 
-        let mut large = NodeStore::<VertexId>::new(MOST_BY_ID + 1);
-        large.set_path(VertexId(70), Cost::ZERO, 0, VertexId(0));
-        large.fit(MOST_BY_ID + 1);
-        assert!(large.get(VertexId(70)).is_none() && large.nodes.len() == 2 * BLOCK);
-        large.fit(80);
-        assert_eq!((large.nodes.len(), large.blocks.len()), (80, 0));
+        let mut jumps = NodeStore::<JumpParent>::new(81);
+        jumps.set_path(VertexId(80), Cost::ZERO, 0, JumpParent(VertexId(0)));
+        jumps.fit(81);
+        assert!(jumps.get(VertexId(80)).is_none());
+        assert_eq!((jumps.nodes.len(), jumps.blocks.len()), (2 * BLOCK, 11));
+        jumps.fit(MOST_RESERVED + 1);
+        assert!(jumps.get(VertexId(80)).is_none());
+        assert_eq!((jumps.nodes.len(), jumps.blocks.len()), (BLOCK, MOST_RESERVED / BLOCK + 1));
     }
 
     #[test]
     fn nodes_in_blocks_are_those_by_id() {
         let ids = || (0..1000).step_by(7).chain([999, 0, 15, 16]).map(VertexId);
-        let mut stores = [NodeStore::<VertexId>::by_id(1000), NodeStore::in_blocks(1000)];
+        let (mut by_id, mut in_blocks) =
+            (NodeStore::<VertexId>::new(1000), NodeStore::<JumpParent>::new(1000));
         for search in 1..5 {
-            for store in &mut stores {
-                store.start_search();
-                for id in ids().filter(|id| id.0 % search == 0) {
-                    assert!(id.0 == 0 || store.get(id).is_none());
-                    store.set_path(id, Cost::from_bits(u64::from(id.0)), search as usize, VertexId(search));
-                    store.set_slot(id, id.0 + 1);
-                }
-            }
-            let [by_id, in_blocks] = [0, 1].map(|i| {
-                let nodes = (0..1000).map(|id| stores[i].get(VertexId(id)));
-                nodes.map(|node| format!("{node:?}")).collect::<Vec<_>>()
-            });
-            assert_eq!(by_id, in_blocks, "search {search}");
-            assert!(by_id.iter().filter(|node| *node != "None").count() > 30);
+            let touched: Vec<VertexId> = ids().filter(|id| id.0 % search == 0).collect();
+            touch(&mut by_id, search, &touched);
+            touch(&mut in_blocks, search, &touched);
+            let known = all(&by_id);
+            assert_eq!(known, all(&in_blocks), "search {search}");
+            assert!(known.iter().flatten().count() > 30);
         }
-        let few = NodeStore::<VertexId>::new(MOST_BY_ID + 1);
-        assert_eq!((few.nodes.len(), NodeStore::<()>::new(MOST_BY_ID + 1).blocks.len()), (BLOCK, 0));
+        assert_eq!((by_id.nodes.len(), by_id.blocks.len()), (1000, 0));
+        assert!((700..1000 + 2 * BLOCK).contains(&in_blocks.nodes.len()));
+    }
+
+    fn touch<N: ParentPointer>(store: &mut NodeStore<N>, search: u32, ids: &[VertexId]) {
+        store.start_search();
+        for &id in ids {
+            assert!(id.0 == 0 || store.get(id).is_none());
+            store.set_path(id, Cost::from_bits(u64::from(id.0)), search as usize, N::to(VertexId(search)));
+            store.set_slot(id, id.0 + 1);
+        }
+    }
+
+    /// The cost, slot, move and parent of a node.
+    type Known = (Cost, u32, usize, Option<VertexId>);
+
+    fn all<N: ParentPointer>(store: &NodeStore<N>) -> Vec<Option<Known>> {
+        let known = |node: Node<N>| (node.g, node.slot, node.arrived_by(), node.pointer.stored());
+        (0..1000).map(|id| store.get(VertexId(id)).map(known)).collect()
     }
 }

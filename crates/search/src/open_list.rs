@@ -64,6 +64,10 @@ impl Entry {
     }
 }
 
+/// Searches that seldom lower an entry keep no slots of so many entries at the top of the heap up to date: an
+/// entry to be lowered is looked for there. So short searches write one slot for each entry, the first one.
+pub(crate) const TOP: usize = 63;
+
 /// An indexed binary heap, least entry first.
 ///
 /// The caller stores the slot of each vertex: every operation takes a function that it calls with
@@ -153,9 +157,72 @@ impl OpenList {
         if entry < known { self.sift_up(slot, entry, moved) } else { self.sift_down(slot, entry, moved) }
     }
 
+    /// [`push`](Self::push) where the first `top` slots are not kept up to date. Also returns the entry's slot,
+    /// of which `moved` is not told.
+    #[inline]
+    pub(crate) fn push_loosely(
+        &mut self,
+        top: usize,
+        entry: Entry,
+        mut moved: impl FnMut(VertexId, u32),
+    ) -> (u32, u32) {
+        self.heap.push(entry);
+        self.rise(top, self.heap.len() - 1, entry, &mut moved)
+    }
+
+    /// [`pop`](Self::pop) where the first `top` slots are not kept up to date.
+    #[inline]
+    pub(crate) fn pop_loosely(
+        &mut self,
+        top: usize,
+        mut moved: impl FnMut(VertexId, u32),
+    ) -> Option<(Entry, u32)> {
+        let last = self.heap.pop()?;
+        let Some(&first) = self.heap.first() else { return Some((last, 0)) };
+        let (swaps, slot) = self.sink(top, 0, last, &mut moved);
+        if self.heap.len() >= top {
+            moved(last.id(), slot);
+        }
+        Some((first, swaps))
+    }
+
+    /// The slot of the entry of a vertex, whose slot was `known` when last told. The first `top` slots are not
+    /// kept up to date.
+    #[inline]
+    pub(crate) fn slot_of(&self, top: usize, id: VertexId, known: u32) -> u32 {
+        if known as usize >= top {
+            return known;
+        }
+        let at = self.heap.iter().take(top).position(|entry| entry.id() == id);
+        at.map_or(known, |slot| slot as u32)
+    }
+
     /// Puts `entry` into the free slot `slot` or as far above it as it belongs.
     #[inline]
-    fn sift_up(&mut self, mut slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+    fn sift_up(&mut self, slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+        let (swaps, slot) = self.rise(0, slot, entry, moved);
+        moved(entry.id(), slot);
+        swaps
+    }
+
+    /// Puts `entry` into the free slot `slot` or as far below it as it belongs.
+    #[inline]
+    fn sift_down(&mut self, slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
+        let (swaps, slot) = self.sink(0, slot, entry, moved);
+        moved(entry.id(), slot);
+        swaps
+    }
+
+    /// [`sift_up`](Self::sift_up), which tells of other entries that it moves to slot `from` or beyond. Returns
+    /// the number of swaps and the slot of `entry`.
+    #[inline]
+    fn rise(
+        &mut self,
+        from: usize,
+        mut slot: usize,
+        entry: Entry,
+        moved: &mut impl FnMut(VertexId, u32),
+    ) -> (u32, u32) {
         let mut swaps = 0;
         while slot > 0 {
             let above = (slot - 1) / 2;
@@ -164,20 +231,28 @@ impl OpenList {
                 break;
             }
             self.heap[slot] = other;
-            moved(other.id(), slot as u32);
+            if slot >= from {
+                moved(other.id(), slot as u32);
+            }
             slot = above;
             swaps += 1;
         }
         self.heap[slot] = entry;
-        moved(entry.id(), slot as u32);
-        swaps
+        (swaps, slot as u32)
     }
 
-    /// Puts `entry` into the free slot `slot` or as far below it as it belongs.
+    /// [`sift_down`](Self::sift_down), which tells of other entries that it moves from slot `from` or beyond.
+    /// Returns the number of swaps and the slot of `entry`.
     #[inline]
-    fn sift_down(&mut self, mut slot: usize, entry: Entry, moved: &mut impl FnMut(VertexId, u32)) -> u32 {
-        let heap = self.heap.as_mut_slice();
+    fn sink(
+        &mut self,
+        from: usize,
+        mut slot: usize,
+        entry: Entry,
+        moved: &mut impl FnMut(VertexId, u32),
+    ) -> (u32, u32) {
         let mut swaps = 0;
+        let heap = self.heap.as_mut_slice();
         while let Some(&left) = heap.get(2 * slot + 1) {
             // Which child is less is not predictable, so the code must not branch on it.
             let right = heap.get(2 * slot + 2).copied().unwrap_or(left);
@@ -187,12 +262,65 @@ impl OpenList {
                 break;
             }
             heap[slot] = other;
-            moved(other.id(), slot as u32);
-            slot = 2 * slot + 1 + usize::from(beyond);
+            let below = 2 * slot + 1 + usize::from(beyond);
+            if below >= from {
+                moved(other.id(), slot as u32);
+            }
+            slot = below;
             swaps += 1;
         }
         heap[slot] = entry;
-        moved(entry.id(), slot as u32);
-        swaps
+        (swaps, slot as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use mediant_oracle::Rng;
+
+    use super::*;
+
+    #[test]
+    fn with_slots_kept_loosely_entries_move_as_they_do_with_exact_ones() {
+        for seed in 0..20 {
+            let mut rng = Rng::new(seed);
+            let (mut exact, mut loose) = (OpenList::default(), OpenList::default());
+            let (mut exact_slots, mut loose_slots) = (BTreeMap::new(), BTreeMap::new());
+            let (mut lowered_at_top, mut lowered_below) = (0, 0);
+            for id in 0..1500 {
+                let case = format!("seed {seed}, vertex {id}");
+                let cost = |n: u32| Cost::from_bits(u64::from(n) << 16);
+                let entry = Entry::new(cost(rng.below(1000) + 1000), cost(rng.below(50)), VertexId(id));
+                let swaps = exact.push(entry, |id, slot| _ = exact_slots.insert(id, slot));
+                let known = &mut loose_slots;
+                let (also, slot) = loose.push_loosely(TOP, entry, |id, slot| _ = known.insert(id, slot));
+                loose_slots.insert(VertexId(id), slot);
+                assert_eq!(swaps, also, "{case}");
+
+                let lowered = VertexId(rng.below(id + 1));
+                if let (Some(&slot), Some(&known)) = (exact_slots.get(&lowered), loose_slots.get(&lowered)) {
+                    assert_eq!(loose.slot_of(TOP, lowered, known), slot, "{case}");
+                    *(if (slot as usize) < TOP { &mut lowered_at_top } else { &mut lowered_below }) += 1;
+                    let gain = cost(rng.below(500));
+                    let swaps = exact.decrease(slot, gain, |id, slot| _ = exact_slots.insert(id, slot));
+                    let known = &mut loose_slots;
+                    let also = loose.decrease(slot, gain, |id, slot| _ = known.insert(id, slot));
+                    assert_eq!(swaps, also, "{case}");
+                }
+                if rng.below(3) == 0 {
+                    let popped = exact.pop(|id, slot| _ = exact_slots.insert(id, slot));
+                    let known = &mut loose_slots;
+                    let also = loose.pop_loosely(TOP, |id, slot| _ = known.insert(id, slot));
+                    assert_eq!(popped, also, "{case}");
+                    let id = popped.map(|(entry, _)| entry.id());
+                    exact_slots.retain(|&other, _| Some(other) != id);
+                    loose_slots.retain(|&other, _| Some(other) != id);
+                }
+                assert_eq!(exact.heap, loose.heap, "{case}");
+            }
+            assert!(lowered_at_top > 20 && lowered_below > 100, "{lowered_at_top}, {lowered_below}");
+        }
     }
 }

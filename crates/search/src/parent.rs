@@ -71,7 +71,6 @@ impl ParentPointer for () {
 impl ParentPointer for VertexId {
     type Words = [u32; 5];
     const UNKNOWN: [u32; 5] = [0; 5];
-    const IS_FOR_JUMPS: bool = true;
 
     #[inline]
     fn read(words: &[u32; 5]) -> Self {
@@ -102,5 +101,46 @@ impl ParentPointer for VertexId {
         _: Vertex,
     ) -> (VertexId, Vertex) {
         (self, graph.vertex(self))
+    }
+}
+
+/// The parent of a node to which a jump led.
+#[derive(Clone, Copy, Debug)]
+pub struct JumpParent(pub VertexId);
+
+impl ParentPointer for JumpParent {
+    type Words = [u32; 5];
+    const UNKNOWN: [u32; 5] = [0; 5];
+    const IS_FOR_JUMPS: bool = true;
+
+    #[inline]
+    fn read(words: &[u32; 5]) -> Self {
+        Self(VertexId::read(words))
+    }
+
+    #[inline]
+    fn write(self, words: &mut [u32; 5]) {
+        self.0.write(words);
+    }
+
+    #[inline]
+    fn stored(self) -> Option<VertexId> {
+        Some(self.0)
+    }
+
+    #[inline]
+    fn to(parent: VertexId) -> Self {
+        Self(parent)
+    }
+
+    #[inline]
+    fn parent<P: Placement>(
+        self,
+        graph: &GridGraph<P>,
+        step: &Step,
+        id: VertexId,
+        at: Vertex,
+    ) -> (VertexId, Vertex) {
+        self.0.parent(graph, step, id, at)
     }
 }

@@ -22,7 +22,7 @@ pub use crate::{
     nodes::{Node, NodeStore},
     observer::Part,
     open_list::{Entry, OpenList},
-    parent::ParentPointer,
+    parent::{JumpParent, ParentPointer},
     search_tree::SearchTree,
     segment::segment_cost,
     smoothing::HasFreeSpace,

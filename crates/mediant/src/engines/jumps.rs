@@ -4,10 +4,10 @@
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
-use mediant_grid::{Change as GridChange, GridGraph, Interrupt, Interrupted, Placement, VertexId};
+use mediant_grid::{Change as GridChange, GridGraph, Interrupt, Interrupted, Placement};
 use mediant_search::{
     Pruning,
-    parts::{BlockFinder, JumpFinder, JumpPointSearch, NodeStore, StepwiseFinder},
+    parts::{BlockFinder, JumpFinder, JumpParent, JumpPointSearch, NodeStore, StepwiseFinder},
 };
 
 use super::{Boxed, EngineIndex, Source, boxed, following, shared, with_options};
@@ -150,7 +150,7 @@ impl<P: PlacementOfSpace, J: EngineFinder<P> + 'static> EngineIndex for JumpInde
     }
 
     fn scratch_bytes(&self) -> usize {
-        NodeStore::<VertexId>::bytes(self.graph.vertex_count())
+        NodeStore::<JumpParent>::bytes(self.graph.vertex_count())
     }
 
     fn with_options(&self, engine: ConfiguredEngine) -> Result<Option<Arc<dyn EngineIndex>>, Error> {

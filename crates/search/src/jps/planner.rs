@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
 use mediant_moves::KError;
 
 use super::{
@@ -17,12 +17,13 @@ use crate::{
     best_first::BestFirst,
     canonical::{Pruning, pattern_at, prunes, rank},
     heuristic::Heuristic,
+    parent::JumpParent,
     successors::{ExpandedNode, KnownPath, Successor, Successors},
 };
 
-/// Jump point search with any [`JumpFinder`]. Its scratch memory is 20 bytes for each vertex that
-/// searches touch, by pages of the system.
-pub type JumpPointSearch<G, H, P, J> = BestFirst<G, H, JumpMoves<P, J>, VertexId>;
+/// Jump point search with any [`JumpFinder`]. Its scratch memory is 20 bytes for each vertex of a
+/// block of eight to which searches come, and half a byte for each vertex of the map.
+pub type JumpPointSearch<G, H, P, J> = BestFirst<G, H, JumpMoves<P, J>, JumpParent>;
 
 /// Jump point search for every k, which scans jumps vertex by vertex.
 pub type Jps<G, H, P> = JumpPointSearch<G, H, P, StepwiseFinder>;
@@ -212,7 +213,7 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
 }
 
 impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
-    type ParentPointer = VertexId;
+    type ParentPointer = JumpParent;
 
     fn begin(&mut self, graph: &GridGraph<P>, goal: Vertex) {
         let keeps_intermediate = self.keeps_intermediate;
