@@ -157,8 +157,8 @@ impl OpenList {
         if entry < known { self.sift_up(slot, entry, moved) } else { self.sift_down(slot, entry, moved) }
     }
 
-    /// [`push`](Self::push) where the first `top` slots are not kept up to date. Also returns the entry's slot,
-    /// of which `moved` is not told.
+    /// [`push`](Self::push) where the first `top` slots are not kept up to date. Also returns the entry's
+    /// slot, of which `moved` is not told.
     #[inline]
     pub(crate) fn push_loosely(
         &mut self,
@@ -186,8 +186,8 @@ impl OpenList {
         Some((first, swaps))
     }
 
-    /// The slot of the entry of a vertex, whose slot was `known` when last told. The first `top` slots are not
-    /// kept up to date.
+    /// The slot of the entry of a vertex, whose slot was `known` when last told. The first `top` slots are
+    /// not kept up to date.
     #[inline]
     pub(crate) fn slot_of(&self, top: usize, id: VertexId, known: u32) -> u32 {
         if known as usize >= top {
@@ -213,8 +213,8 @@ impl OpenList {
         swaps
     }
 
-    /// [`sift_up`](Self::sift_up), which tells of other entries that it moves to slot `from` or beyond. Returns
-    /// the number of swaps and the slot of `entry`.
+    /// [`sift_up`](Self::sift_up), which tells of other entries that it moves to slot `from` or beyond.
+    /// Returns the number of swaps and the slot of `entry`.
     #[inline]
     fn rise(
         &mut self,

@@ -99,8 +99,9 @@ pub trait Planner {
         Ok(path.map_or(Answer::Unreachable, Answer::Found))
     }
 
-    /// Begins the search for an answer and finishes it, watched by an observer, which cannot pause it. Returns
-    /// whether there is a path: then [`path_to`](Self::path_to) and [`bends_to`](Self::bends_to) give it.
+    /// Begins the search for an answer and finishes it, watched by an observer, which cannot pause it.
+    /// Returns whether there is a path: then [`path_to`](Self::path_to) and [`bends_to`](Self::bends_to)
+    /// give it.
     ///
     /// # Errors
     /// As for [`solve_observed`](Self::solve_observed).

@@ -59,19 +59,21 @@ impl Ray {
 /// vertex, or at least 2⁻²⁵ away from every vertex. A crossing is that rational plus 2⁻²⁷, up or down an
 /// error below 2⁻²⁷:
 ///
-/// - *Anew*, it is the root's column, exact, and n · (dx / dy), the quotient and the product rounded to 53
-///   binary digits. On the map this is at most 2¹⁵ columns, so it is off by at most 2⁻³⁷; cutting off after
-///   44 binary places adds 2⁻⁴⁴.
-/// - *A step* is a quotient s, cut off. n steps are off by n · s · 2⁻⁵³ < 2⁻³⁴, as the ray is on the map or a
-///   few lines further, and by n · 2⁻⁴⁴ ≤ 2⁻²⁹.
+/// - *A step* is a quotient s of 53 binary digits, cut off after 44 binary places. n steps are off by n · s ·
+///   2⁻⁵³ < 2⁻³⁴, as the ray is on the map or a few lines further, and by n · 2⁻⁴⁴ ≤ 2⁻²⁹.
+/// - *Anew*, it is the root's column, exact, and n steps, whole or not, cut off once more.
+/// - *Anew along a flat ray*, whose step is cut (below), it is the root's column and n · (dx / dy), the
+///   quotient and the product rounded to 53 binary digits: on the map at most 2¹⁵ columns, so off by at most
+///   2⁻³⁷.
 ///
 /// Together that is less than 2⁻²⁸. So the fractional part of a crossing is between 0 and 2⁻²⁶ at a vertex,
 /// and between 2⁻²⁶ and 1 elsewhere.
 ///
 /// **Flat rays.** From a root 1/1024 beside a line, a ray may move by 2²⁵ columns a line. A step is cut to
-/// one more than 2¹⁵ columns: wherever it begins on the map, it ends outside, as the ray does, and on the
-/// same side. So is the way from the root to the first line. So crossings stay within 2¹⁵ columns of the map
-/// for a step, and within 2¹⁹ for eight at once; their fixed-point values stay below 2⁶³.
+/// 2¹⁵ columns: from a place on the map it leads to the map's border or beyond, as the ray does, and on the
+/// same side. At the border an interval ends anyway, since all cells beyond are blocked. So crossings stay
+/// within 2¹⁵ columns of the map for a step, and within 2¹⁸ for eight at once; their fixed-point values stay
+/// below 2⁶³.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing(i64);
 
@@ -118,16 +120,6 @@ impl Crossing {
     }
 }
 
-/// The most columns that a ray moves at once: more than there are on any map.
-const MOST: f64 = (crate::Grid::MAX_SIDE + 1) as f64;
-
-/// A number, cut to at most `most` up or down.
-#[inline]
-const fn cut(number: f64, most: f64) -> f64 {
-    let below = if number < most { number } else { most };
-    if below > -most { below } else { -most }
-}
-
 /// An end of an interval, followed from line to line by additions.
 #[derive(Clone, Copy, Debug)]
 pub struct IntervalEnd {
@@ -143,25 +135,49 @@ impl IntervalEnd {
     /// The end on the line that is `n` parts from the root, for a ray from a root at `root` parts.
     #[inline]
     pub const fn new(ray: Ray, root: i32, n: i32) -> Self {
-        const PART: f64 = Crossing::ONE as f64 / Place::parts(1) as f64;
-        let slope = ray.dx as f64 / ray.dy as f64;
-        let from = (root as i64) << (Crossing::FRACTION - Place::PLACES);
-        let aside = cut(n as f64 * (slope * PART), MOST * Crossing::ONE as f64) as i64;
-        Self { ray, here: Crossing(from + Crossing::BIAS + aside), step: Self::step(slope) }
+        let step = Self::step(ray);
+        let from = ((root as i64) << (Crossing::FRACTION - Place::PLACES)) + Crossing::BIAS;
+        let aside = if step.abs() < Self::STEEPEST_FLAT {
+            ((n as i128 * step as i128) >> Place::PLACES) as i64
+        } else {
+            Self::flat(ray, n)
+        };
+        Self { ray, here: Crossing(from + aside), step }
     }
 
     /// The end at a vertex in column `x`, `n` parts from a root at `root` parts, and the ray through it.
     #[inline]
     pub const fn corner(x: i32, root: i32, n: i32) -> Self {
         let ray = Ray::through(x, root, n);
-        Self { ray, here: Crossing::vertex(x), step: Self::step(ray.dx as f64 / ray.dy as f64) }
+        Self { ray, here: Crossing::vertex(x), step: Self::step(ray) }
     }
 
-    /// How far a ray of this slope moves from one line to the next. In floating point: an integer division
+    /// The step of a ray that is cut, or nearly.
+    const STEEPEST_FLAT: i64 = i64::MAX >> Self::CUT;
+    /// The binary places that a step is shorter than the greatest integer: to which the conversion cuts it.
+    const CUT: u32 = 4;
+
+    /// How far a ray moves from one line to the next ([`Crossing`]). In floating point: an integer division
     /// takes a branch for the sign and cannot overlap with the next.
     #[inline]
-    const fn step(slope: f64) -> i64 {
-        (cut(slope, MOST) * Crossing::ONE as f64) as i64
+    const fn step(ray: Ray) -> i64 {
+        const SCALE: f64 = (Crossing::ONE << IntervalEnd::CUT) as f64;
+        (ray.dx as f64 / ray.dy as f64 * SCALE) as i64 >> Self::CUT
+    }
+
+    /// How far a ray whose step is cut is aside, `n` parts from its root; cut to a little more than the map.
+    #[cold]
+    const fn flat(ray: Ray, n: i32) -> i64 {
+        const PART: f64 = Crossing::ONE as f64 / Place::parts(1) as f64;
+        const MOST: i64 = Crossing::ONE << 16;
+        let aside = (n as f64 * (ray.dx as f64 / ray.dy as f64 * PART)) as i64;
+        if aside > MOST {
+            MOST
+        } else if aside < -MOST {
+            -MOST
+        } else {
+            aside
+        }
     }
 
     /// The same end on the line that its ray crosses at `next`.
@@ -290,7 +306,7 @@ mod tests {
                 // Outside, on the same side as the ray.
                 let (floor, _, _) = line.on(n);
                 assert_eq!(
-                    (end.here.floor() < 0, end.here.ceil() > SIDE),
+                    (end.here.floor() <= 0, end.here.ceil() >= SIDE),
                     (floor < 0, floor >= SIDE),
                     "{}",
                     case()

@@ -18,7 +18,7 @@ const ENGINES: [Engine; 2] = [Engine::Anya, Engine::Subgoal];
 fn every_engine_finds_the_shortest_path_of_several_ends() {
     let mut found = 0;
     for (seed, gap) in
-        seeds(60).into_iter().flat_map(|seed| [DiagonalGap::Open, DiagonalGap::Closed].map(|gap| (seed, gap)))
+        seeds(60).flat_map(|seed| [DiagonalGap::Open, DiagonalGap::Closed].map(|gap| (seed, gap)))
     {
         let (grid, mut rng) = (suite_grid(seed).0, Rng::new(seed));
         let oracle = PointVisibility::new(&grid, gap);

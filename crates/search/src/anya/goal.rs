@@ -82,6 +82,8 @@ impl Goal {
     }
 
     /// Whether a cone's root sees the goal in the row of cells beyond its line.
+    #[cold]
+    #[inline(never)]
     fn is_seen_in_row(&self, cone: &Cone<'_>) -> bool {
         let &Entry { run: (start, end), gaps, .. } = self.entry(cone.down);
         if start >= end {

@@ -58,8 +58,17 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
 
     /// Queues the goal, if a root sees it through the row of cells beyond its line, of which it touches the
     /// cell in a column.
-    #[inline]
+    #[inline(always)]
     fn see_goal(&mut self, root: u32, row: (i32, i32), column: i32) {
+        if self.goal.vertex.is_none() {
+            self.see_goal_between(root, row, column);
+        }
+    }
+
+    /// [`see_goal`](Self::see_goal) of a goal between vertices.
+    #[cold]
+    #[inline(never)]
+    fn see_goal_between(&mut self, root: u32, row: (i32, i32), column: i32) {
         if self.goal.is_beside(row, column) {
             let to = self.frontier.root(root).at.to(self.goal.at);
             self.add(Node::of_goal(root), self.frontier.norm().bound(to));
@@ -302,6 +311,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
 
     /// Adds what the corner of an obstacle in column `x`, at the end of a run that the cone enters, hides of
     /// that run, up to its other end `limit`.
+    #[inline(always)]
     fn add_hidden(&mut self, cone: &Cone<'_>, x: i32, side: Side, limit: i32, end: IntervalEnd) {
         if side.is_inside(end.next(), x) {
             let at = Vertex::new(x, cone.line);

@@ -182,8 +182,8 @@ impl Search {
         Self { keeps_bends: true, ..self }
     }
 
-    /// The [bends](Planner::bends_to) of the [best path](Self::best), if it leads to a goal, the planner knows
-    /// them, and they are [kept](Self::keeping_bends).
+    /// The [bends](Planner::bends_to) of the [best path](Self::best), if it leads to a goal, the planner
+    /// knows them, and they are [kept](Self::keeping_bends).
     #[must_use]
     pub fn bends(&self) -> Option<&[Vertex]> {
         self.bends.as_deref()

@@ -82,9 +82,9 @@ pub(super) fn follow_sight<P: Placement>(space: &FreeSpace<P>, all: &[Vertex]) -
     path
 }
 
-/// Whether the obstacle around which a path turns at a bend is in the way of the segment between the vertices
-/// before and after, as far as the blocked cell at the bend shows: a test of one cell that tells most segments
-/// that are not in sight. At corners; at centers nothing shows.
+/// Whether the obstacle around which a path turns at a bend is in the way of the segment between the
+/// vertices before and after, as far as the blocked cell at the bend shows: a test of one cell that tells
+/// most segments that are not in sight. At corners; at centers nothing shows.
 pub(super) fn is_hidden<P: Placement>(space: &FreeSpace<P>, from: Vertex, bend: Vertex, to: Vertex) -> bool {
     if P::KIND != PlacementKind::Corner {
         return false;

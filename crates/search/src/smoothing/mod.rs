@@ -61,8 +61,8 @@ impl Smoothing {
     }
 
     /// Smooths a path that is known by its bends: see [`Planner::bends_to`], which may be relied on. They
-    /// are all that linear smoothing considers, so it tests sight once or twice for each. Bends outside the map
-    /// are left as they are.
+    /// are all that linear smoothing considers, so it tests sight once or twice for each. Bends outside the
+    /// map are left as they are.
     ///
     /// ```
     /// use std::sync::Arc;

@@ -37,7 +37,7 @@ fn solve(
 #[test]
 fn paths_between_points_are_the_shortest() {
     let mut answers = [0; 2];
-    for (seed, gap) in seeds(400).into_iter().flat_map(|seed| GAPS.map(|gap| (seed, gap))) {
+    for (seed, gap) in seeds(400).flat_map(|seed| GAPS.map(|gap| (seed, gap))) {
         let (grid, mut rng) = (Arc::new(suite_grid(seed).0), Rng::new(seed));
         let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
         let oracle = PointVisibility::new(&grid, gap);

@@ -18,8 +18,8 @@ struct Tally {
     paths: usize,
     /// Whose bends, joined by straight segments, are shorter than the moves of N(k).
     straightened: usize,
-    /// Paths over N(k) that bend once, elsewhere than the paths over their bends: mostly those that are free on
-    /// the empty grid, between ends that do not see each other.
+    /// Paths over N(k) that bend once, elsewhere than the paths over their bends: mostly those that are free
+    /// on the empty grid, between ends that do not see each other.
     around: usize,
     /// Smoothed by either kind to less than the path over the bends.
     smoothed: [usize; 2],
