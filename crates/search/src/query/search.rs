@@ -98,7 +98,8 @@ struct Found {
 impl Search {
     /// A search that has not begun. `metric` is that of the planner's k, `guarantee` the planner's, and
     /// `space` is its free space: it says which ends are connected. For a planner of any-angle paths over
-    /// N(2) take [`FreeSpace::new`], since segments can connect more than N(2) does.
+    /// N(2) take [`FreeSpace::new`](mediant_grid::FreeSpace::new), since segments can connect more than N(2)
+    /// does.
     ///
     /// # Errors
     /// [`QueryError`] for ends that are missing, blocked or outside the map, unless the query says what to
