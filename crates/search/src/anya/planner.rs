@@ -242,7 +242,9 @@ impl<S: Deref<Target = FreeSpace<Corners>>, N: Norm> Planner for Anya<S, N> {
     fn path_to_point(&mut self, at: Point) -> Option<Path> {
         let place = self.space.place(at)?;
         match self.last.filter(|_| place == self.goal.at) {
-            Some(_) if self.frontier.root(0).at == place => Some(Path::through([at])),
+            Some(_) if self.frontier.root(0).at == place => {
+                Some(place.vertex().map_or_else(|| Path::through([at]), |at| Path::new(vec![at])))
+            }
             Some(root) => Some(self.frontier.path(&self.space, root, place)),
             None if self.status == SearchStatus::Unreachable => None,
             None => self.frontier.path_to_root(&self.space, at.vertex()?),

@@ -1,6 +1,6 @@
 //! The ends that paths on a map may have.
 
-use mediant_grid::{FreeSpace, Placement, Point, Vertex};
+use mediant_grid::{FreeSpace, GridGraph, Placement, Point, Vertex};
 
 use super::{End, QueryError};
 
@@ -47,5 +47,24 @@ impl<P: Placement> EndSpace for FreeSpace<P> {
             (None, Some(space)) => space.points_connected(from, to),
             (None, None) => false,
         }
+    }
+}
+
+/// By its free space.
+impl<P: Placement> EndSpace for GridGraph<P> {
+    fn size(&self) -> (u32, u32) {
+        EndSpace::size(&**self)
+    }
+
+    fn is_free(&self, at: Vertex) -> bool {
+        EndSpace::is_free(&**self, at)
+    }
+
+    fn check(&self, end: End, at: Point) -> Result<(), QueryError> {
+        EndSpace::check(&**self, end, at)
+    }
+
+    fn connected(&self, from: Point, to: Point) -> bool {
+        EndSpace::connected(&**self, from, to)
     }
 }
