@@ -157,7 +157,7 @@ impl IntervalEnd {
     /// The binary places that a step is shorter than the greatest integer: to which the conversion cuts it.
     const CUT: u32 = 4;
 
-    /// How far a ray moves from one line to the next ([`Crossing`]). In floating point: an integer division
+    /// The way of a ray from one line to the next ([`Crossing`]). In floating point: an integer division
     /// takes a branch for the sign and cannot overlap with the next.
     #[inline]
     const fn step(ray: Ray) -> i64 {
@@ -165,7 +165,7 @@ impl IntervalEnd {
         (ray.dx as f64 / ray.dy as f64 * SCALE) as i64 >> Self::CUT
     }
 
-    /// How far a ray whose step is cut is aside, `n` parts from its root; cut to a little more than the map.
+    /// The distance aside of a ray whose step is cut, `n` parts from its root; cut to twice the largest map.
     #[cold]
     const fn flat(ray: Ray, n: i32) -> i64 {
         const PART: f64 = Crossing::ONE as f64 / Place::parts(1) as f64;

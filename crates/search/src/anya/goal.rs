@@ -23,7 +23,7 @@ pub(super) struct Goal {
     entries: [Entry; 2],
 }
 
-/// How cones of one direction come to the goal.
+/// The way of cones of one direction to the goal.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     /// The line of the goal, if it is a vertex; else the last one before a row of cells that touches it.

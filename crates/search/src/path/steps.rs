@@ -48,7 +48,7 @@ impl Segment {
         det == 0 && dot > 0
     }
 
-    /// How many times its move is taken, between vertices: the greatest common divisor of its displacement.
+    /// The number of moves in it, between vertices: the greatest common divisor of its displacement.
     fn times(&self) -> i64 {
         let (mut a, mut b) = (self.by().0.abs(), self.by().1.abs());
         while b != 0 {

@@ -19,7 +19,7 @@ pub(super) struct Line {
     y: f32,
 }
 
-/// How an end is joined to a subgoal.
+/// The joint of an end and a subgoal: a displacement or a line.
 pub(super) trait Joint: Copy {
     /// The cost of the line.
     fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64;
@@ -56,7 +56,7 @@ impl Joint for Line {
 #[derive(Debug)]
 pub(super) struct Candidates<J> {
     pub(super) slots: Vec<u32>,
-    /// How it is joined to their subgoals.
+    /// The joints with their subgoals.
     pub(super) steps: Vec<J>,
     /// Lower bounds on the costs of paths over them, in cells.
     pub(super) bounds: Vec<f32>,

@@ -12,7 +12,7 @@ use crate::{
     exact::ends,
 };
 
-/// How many paths were made shorter.
+/// The number of paths that were made shorter.
 #[derive(Clone, Copy, Debug, Default)]
 struct Tally {
     paths: usize,
