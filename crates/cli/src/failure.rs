@@ -94,7 +94,7 @@ pub(crate) enum Failure {
     NoGrounds { path: PathBuf, map: String },
     #[error(transparent)]
     Tiles(#[from] TilesError),
-    #[error("({x}, {y}) is no vertex: write whole numbers, such as 3,14, or meters with --world")]
+    #[error("({x}, {y}) is no vertex: write whole numbers, such as 3,14, or --k any, or meters with --world")]
     NoVertex { x: f64, y: f64 },
     #[error(
         "({x}, {y}) is outside the map, which lies between ({:.3}, {:.3}) and ({:.3}, {:.3}) in the world",
@@ -114,11 +114,6 @@ pub(crate) enum Failure {
     NoInstances { scenario: String },
     #[error("{}{}", if .0.parameter().is_some() { "--" } else { "" }, .0)]
     Call(#[from] CallError),
-    #[error(
-        "--reference {engine} finds no any-angle paths at --placement {placement}: leave it out, or choose \
-         --placement corner"
-    )]
-    NoReference { engine: Engine, placement: PlacementKind },
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error("{}", in_words(.0))]

@@ -10,7 +10,7 @@ use std::{
 };
 
 use mediant::{
-    Costs, Disc, Motion, PlacementKind, Vertex, Walking,
+    Costs, Disc, K, Motion, PlacementKind, Point, Vertex, Walking,
     files::{Tiles, WorldFrame},
     grid::Grid,
 };
@@ -150,7 +150,13 @@ impl NamedMap {
 
     /// The ground of a MovingAI map that somebody stands on at a vertex: that of its own cell, else that of
     /// the first of the other cells around it at corners, else land.
-    pub(crate) fn ground_at(&self, placement: PlacementKind, at: Vertex) -> Ground {
+    pub(crate) fn ground_at(&self, placement: PlacementKind, at: Point) -> Ground {
+        // A point between vertices stands on the cell that it is in.
+        let at = match (placement, at.vertex()) {
+            (_, Some(at)) => at,
+            (PlacementKind::Center, None) => at.at_corners().floor(),
+            (PlacementKind::Corner, None) => at.floor(),
+        };
         let around: &[(i32, i32)] = match placement {
             PlacementKind::Center => &[(0, 0)],
             PlacementKind::Corner => &[(0, 0), (-1, 0), (0, -1), (-1, -1)],
@@ -226,26 +232,52 @@ impl NamedMap {
         (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
     }
 
+    /// The end of a path at a place of the command line: a vertex, at any angle any point.
+    pub(crate) fn end(&self, motion: Motion, place: Place) -> Result<Point, Failure> {
+        let placement = motion.rules.placement();
+        if motion.k != K::Any {
+            return Ok(self.vertex(placement, place)?.into());
+        }
+        let (x, y) = place.point();
+        let at = match (self.frame, place) {
+            (None, Place::Vertex(at)) => Some(at.into()),
+            (None, Place::Point(x, y)) => Point::nearest(x, y),
+            (Some(frame), _) => frame.place_at(placement, x, y),
+        };
+        at.ok_or_else(|| self.outside(x, y))
+    }
+
+    /// The error for a place outside the map.
+    fn outside(&self, x: f64, y: f64) -> Failure {
+        let Some(frame) = self.frame else { return Failure::NoVertex { x, y } };
+        let corners = [(0, frame.height()), (frame.width(), 0)];
+        let corners =
+            corners.map(|(x, y)| frame.point_of(PlacementKind::Corner, Vertex::new(x as i32, y as i32)));
+        Failure::OutsideWorld { x, y, corners }
+    }
+
     /// The vertex at a place of the command line.
     pub(crate) fn vertex(&self, placement: PlacementKind, place: Place) -> Result<Vertex, Failure> {
         match (self.frame, place) {
             (None, Place::Vertex(at)) => Ok(at),
-            (None, Place::Point(x, y)) => Err(Failure::NoVertex { x, y }),
+            (None, Place::Point(x, y)) => {
+                Point::nearest(x, y).and_then(Point::vertex).ok_or(Failure::NoVertex { x, y })
+            }
             (Some(frame), place) => {
                 let (x, y) = place.point();
-                let at = frame.vertex_at(placement, x, y);
-                at.ok_or_else(|| {
-                    let corners = [(0, frame.height()), (frame.width(), 0)]
-                        .map(|(x, y)| frame.point_of(PlacementKind::Corner, Vertex::new(x as i32, y as i32)));
-                    Failure::OutsideWorld { x, y, corners }
-                })
+                frame.vertex_at(placement, x, y).ok_or_else(|| self.outside(x, y))
             }
         }
     }
 
-    /// The greatest distance of places of the world from their [vertices](Self::vertex), in meters; `None`
-    /// without `--world`.
-    pub(crate) fn moved(&self, placement: PlacementKind, places: &[Place], at: &[Vertex]) -> Option<f64> {
+    /// The greatest distance of places of the world from the [ends](Self::end) of paths there, in meters;
+    /// `None` without `--world`.
+    pub(crate) fn moved(
+        &self,
+        placement: PlacementKind,
+        places: &[Place],
+        at: &[impl Into<Point> + Copy],
+    ) -> Option<f64> {
         let frame = self.frame?;
         let moved = places.iter().zip(at).map(|(place, &at)| {
             let ((x, y), (to_x, to_y)) = (place.point(), frame.point_of(placement, at));

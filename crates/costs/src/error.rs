@@ -1,6 +1,6 @@
 //! Errors of cost surfaces.
 
-use mediant_grid::{Interrupted, Mismatch};
+use mediant_grid::{Interrupted, Mismatch, Rules};
 use mediant_moves::FiniteK;
 use mediant_search::QueryError;
 
@@ -18,6 +18,12 @@ pub enum CostsError {
         width: u64,
         /// The number of rows.
         height: u64,
+    },
+    /// Rules under which no move over N(k) is one.
+    #[error("no path over N(k) has {rules}: choose a corner rule between centers, or placement corner")]
+    Rules {
+        /// The rules.
+        rules: Rules,
     },
     /// Another number of costs than cells.
     #[error("there are {found} costs for {expected} cells: give one for each cell, row by row")]

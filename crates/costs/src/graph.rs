@@ -51,12 +51,15 @@ impl CostGraph {
     /// The search graph of a surface under some rules and N(k).
     ///
     /// # Errors
-    /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K); [`CostsError::Size`] for so many closed gaps on a map
-    /// of nearly 2³² cells that they have no numbers.
+    /// [`CostsError::K`] above [`MAX_K`](Self::MAX_K); [`CostsError::Rules`] for those of any angle;
+    /// [`CostsError::Size`] for so many closed gaps on a map of nearly 2³² cells that they have no numbers.
     pub fn new(map: Arc<CostSurface>, rules: Rules, k: FiniteK) -> Result<Self, CostsError> {
         let too_large = CostsError::K { k, max: Self::MAX_K };
         if k.get() > Self::MAX_K {
             return Err(too_large);
+        }
+        if let Rules::CenterGap(_) = rules {
+            return Err(CostsError::Rules { rules });
         }
         let moves = Moves::new(rules.placement(), k, map.scale()).map_err(|_| too_large)?;
         let least = CostTable::with_costs(k, |v| moves.least(v)).map_err(|_| too_large)?;

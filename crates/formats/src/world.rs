@@ -1,6 +1,6 @@
 //! Where a map lies in the world.
 
-use mediant_grid::{Grid, GridError, PlacementKind, Vertex};
+use mediant_grid::{Grid, GridError, PlacementKind, Point, Vertex};
 
 /// How the cells of a map lie in the world: between cells, with y down, and meters, with y up, as a ROS map
 /// states it.
@@ -11,7 +11,7 @@ use mediant_grid::{Grid, GridError, PlacementKind, Vertex};
 ///
 /// ```
 /// use mediant_formats::WorldFrame;
-/// use mediant_grid::{PlacementKind, Vertex};
+/// use mediant_grid::{PlacementKind, Point, Vertex};
 /// // 40 × 20 cells of 5 cm, whose lower left corner is at (−1, −0.5).
 /// let frame = WorldFrame::new(0.05, [-1.0, -0.5, 0.0], 40, 20)?;
 /// assert_eq!(frame.cell_at(-0.99, -0.49), Some(Vertex::new(0, 19)));
@@ -118,10 +118,7 @@ impl WorldFrame {
     /// vertices it is the right or the upper one.
     #[must_use]
     pub fn vertex_at(&self, placement: PlacementKind, x: f64, y: f64) -> Option<Vertex> {
-        let (sin, cos) = self.turn();
-        let (x, y) = (x - self.origin[0], y - self.origin[1]);
-        let right = (x * cos + y * sin) / self.resolution;
-        let up = (y * cos - x * sin) / self.resolution;
+        let (right, up) = self.on_map(x, y);
         let (width, height) = (f64::from(self.width), f64::from(self.height));
         let (column, row, columns, rows) = match placement {
             PlacementKind::Center => (right.floor(), height - 1.0 - up.floor(), width, height),
@@ -134,15 +131,50 @@ impl WorldFrame {
         on_map.then_some(Vertex { x: column as i32, y: row as i32 })
     }
 
-    /// Where a vertex is in the world, in meters. The vertex may be outside the map.
+    /// The point of the map at a point of the world, in meters: rounded to a multiple of 1/1024 of a cell, as
+    /// ends of paths at any angle are. `None` outside of the map's rectangle, by more than that rounding.
+    ///
+    /// ```
+    /// use mediant_formats::WorldFrame;
+    /// use mediant_grid::{PlacementKind, Point};
+    ///
+    /// let frame = WorldFrame::new(0.5, [-1.0, -2.0, 0.0], 8, 6)?;
+    /// let at = frame.place_at(PlacementKind::Corner, -0.7, 0.25).expect("it is on the map");
+    /// assert_eq!(at, Point::from((0.6, 1.5)));
+    /// let (x, y) = frame.point_of(PlacementKind::Corner, at);
+    /// assert!((x + 0.7).hypot(y - 0.25) < 0.5 / 1024.0);
+    /// # Ok::<(), mediant_formats::WorldError>(())
+    /// ```
     #[must_use]
-    pub fn point_of(&self, placement: PlacementKind, at: Vertex) -> (f64, f64) {
+    pub fn place_at(&self, placement: PlacementKind, x: f64, y: f64) -> Option<Point> {
+        let (right, up) = self.on_map(x, y);
+        let at = Point::nearest(right, f64::from(self.height) - up)?;
+        let on_side = |parts: i64, cells: u32| (0..=i64::from(cells) * Point::PARTS).contains(&parts);
+        let (column, row) = at.parts();
+        let is_on_map = on_side(column, self.width) && on_side(row, self.height);
+        is_on_map.then(|| match placement {
+            PlacementKind::Center => at.at_centers(),
+            PlacementKind::Corner => at,
+        })
+    }
+
+    /// How far a point of the world is to the right of the lower left corner and above it, in cells.
+    fn on_map(&self, x: f64, y: f64) -> (f64, f64) {
+        let (sin, cos) = self.turn();
+        let (x, y) = (x - self.origin[0], y - self.origin[1]);
+        ((x * cos + y * sin) / self.resolution, (y * cos - x * sin) / self.resolution)
+    }
+
+    /// Where a vertex, or a point of the map, is in the world, in meters. It may be outside the map.
+    #[must_use]
+    pub fn point_of(&self, placement: PlacementKind, at: impl Into<Point>) -> (f64, f64) {
+        let at = at.into();
         let middle = match placement {
             PlacementKind::Center => 0.5,
             PlacementKind::Corner => 0.0,
         };
-        let right = (f64::from(at.x) + middle) * self.resolution;
-        let up = (f64::from(self.height) - f64::from(at.y) - middle) * self.resolution;
+        let right = (at.x() + middle) * self.resolution;
+        let up = (f64::from(self.height) - at.y() - middle) * self.resolution;
         let (sin, cos) = self.turn();
         (self.origin[0] + right * cos - up * sin, self.origin[1] + right * sin + up * cos)
     }

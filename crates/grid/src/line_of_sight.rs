@@ -2,6 +2,7 @@
 
 use crate::{
     Centers, Corners, Grid, Placement, PlacementKind, Rules, Vertex, frame::Frame, placement::SweptCells,
+    points::centers_see,
 };
 
 /// Whether the straight segment from one vertex to another obeys the rules of motion: see
@@ -56,11 +57,13 @@ pub fn line_of_sight<P: Placement>(grid: &Grid, rule: P::Rule, from: Vertex, to:
     })
 }
 
-/// [`line_of_sight`] with the rules as a value.
+/// [`line_of_sight`] with the rules as a value; between centers at any angle that of the segment between the
+/// middles of two cells of the map.
 #[must_use]
 pub fn line_of_sight_under(grid: &Grid, rules: Rules, from: Vertex, to: Vertex) -> bool {
     match rules {
         Rules::Center(corners) => line_of_sight::<Centers>(grid, corners, from, to),
         Rules::Corner(gap) => line_of_sight::<Corners>(grid, gap, from, to),
+        Rules::CenterGap(gap) => centers_see(grid, gap, from, to),
     }
 }

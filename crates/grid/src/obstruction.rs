@@ -40,6 +40,16 @@ impl Obstruction {
             Self::Between { cells: [cell, _] } => Some(cell),
         }
     }
+
+    /// The same on a segment between corners in the coordinates of centers:
+    /// [`Point::at_centers`](crate::Point::at_centers). Cells are cells in both.
+    #[must_use]
+    pub const fn at_centers(self) -> Self {
+        match self {
+            Self::End { at } => Self::End { at: at.at_centers() },
+            other => other,
+        }
+    }
 }
 
 impl fmt::Display for Obstruction {

@@ -20,14 +20,14 @@ const KS: usize = MAX_K as usize - 1;
 #[doc(hidden)]
 #[derive(Debug)]
 pub struct PerMotion<V> {
-    known: [[OnceLock<V>; KS]; Rules::ALL.len()],
+    known: [[OnceLock<V>; KS]; Rules::COUNT],
 }
 
 impl<V> PerMotion<V> {
     /// Nothing is computed yet.
     #[must_use]
     pub const fn new() -> Self {
-        Self { known: [const { [const { OnceLock::new() }; KS] }; Rules::ALL.len()] }
+        Self { known: [const { [const { OnceLock::new() }; KS] }; Rules::COUNT] }
     }
 
     /// The value for these rules and this k.

@@ -25,7 +25,7 @@ use crate::{Coordinate, Vertex};
 /// assert_eq!(Point::nearest(2.0, 0.0), Some(whole));
 /// assert_eq!([Point::from((2.03, 0.5)), Point::from([2, 0])], [between, whole]);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Point {
     /// In parts of a cell, as `y`.
     x: i64,
@@ -57,6 +57,21 @@ impl Point {
             is_in_range.then(|| (cells * Self::PARTS as f64).round() as i64)
         };
         Some(Self { x: parts(x)?, y: parts(y)? })
+    }
+
+    /// The same point of the map in the other coordinates: of a point between centers, where (0, 0) is the
+    /// middle of the first cell, the one between corners, where (0, 0) is the corner of the map.
+    #[must_use]
+    pub const fn at_corners(self) -> Self {
+        let half = Self::PARTS / 2;
+        Self { x: self.x.saturating_add(half), y: self.y.saturating_add(half) }
+    }
+
+    /// The other way round: [`at_corners`](Self::at_corners).
+    #[must_use]
+    pub const fn at_centers(self) -> Self {
+        let half = Self::PARTS / 2;
+        Self { x: self.x.saturating_sub(half), y: self.y.saturating_sub(half) }
     }
 
     /// The coordinate to the right, in cells.

@@ -8,17 +8,16 @@
 //! quotient whose numerator is a sum of two products of two coordinates, below 2⁵², and whose denominator is
 //! a coordinate times 2¹⁰, at most 2³⁵. So floors, ceilings and 'is it a vertex?' are exact in 64 bits.
 
-use crate::{BitMatrix, Corners, FreeSpace, Obstruction, Placement, Point, Vertex, sight::Place};
+use crate::{
+    BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Obstruction, Placement, Point, Vertex, sight::Place,
+};
 
 impl FreeSpace<Corners> {
     /// A point in the parts that rays are counted in; `None` outside of the map's rectangle.
     #[doc(hidden)]
     #[must_use]
     pub fn place(&self, at: Point) -> Option<Place> {
-        let (x, y) = at.parts();
-        let on_map = |parts: i64, cells: u32| (0..=i64::from(cells) * Point::PARTS).contains(&parts);
-        let is_on_map = on_map(x, self.grid().width()) && on_map(y, self.grid().height());
-        is_on_map.then_some(Place { x: x as i32, y: y as i32 })
+        place(self.grid(), at)
     }
 
     /// Whether a path at any angle may stand at a point: whether one of the cells that it touches is free.
@@ -108,21 +107,45 @@ impl FreeSpace<Corners> {
     #[doc(hidden)]
     #[must_use]
     pub fn first_between(&self, from: Place, to: Place) -> Option<Obstruction> {
-        let d = from.to(to);
-        let transposed = d.y.unsigned_abs() > d.x.unsigned_abs();
-        let matrix = if transposed { self.grid().columns() } else { self.grid().rows() };
-        let turned = |at: Place| if transposed { Place { x: at.y, y: at.x } } else { at };
-        let gaps = self.has_closed_gaps();
-        let found = Strips { matrix, gaps, from: turned(from), to: turned(to) }.first()?;
-        let placed = |(u, v): (i32, i32)| if transposed { (v, u) } else { (u, v) };
-        Some(match found {
-            Found::Cell(cell) => {
-                let (x, y) = placed(cell);
-                Obstruction::Cell { x, y }
-            }
-            Found::Between(cells) => Obstruction::Between { cells: cells.map(placed) },
-        })
+        first_between(self.grid(), self.has_closed_gaps(), from, to)
     }
+}
+
+/// A point in the parts that rays are counted in; `None` outside of the map's rectangle.
+fn place(grid: &Grid, at: Point) -> Option<Place> {
+    let (x, y) = at.parts();
+    let on_map = |parts: i64, cells: u32| (0..=i64::from(cells) * Point::PARTS).contains(&parts);
+    let is_on_map = on_map(x, grid.width()) && on_map(y, grid.height());
+    is_on_map.then_some(Place { x: x as i32, y: y as i32 })
+}
+
+/// Whether the segment between the centers of two cells obeys the rules of corner placement.
+pub(crate) fn centers_see(grid: &Grid, gap: DiagonalGap, from: Vertex, to: Vertex) -> bool {
+    let center = |at: Vertex| {
+        let is_small = grid.width().max(grid.height()) <= Grid::MAX_SIDE;
+        place(grid, Point::from(at).at_corners()).filter(|_| is_small && grid.is_free(at.x, at.y))
+    };
+    match [from, to].map(center) {
+        [Some(from), Some(to)] => first_between(grid, gap == DiagonalGap::Closed, from, to).is_none(),
+        _ => false,
+    }
+}
+
+/// The first thing between two places of a map that is in the way.
+fn first_between(grid: &Grid, gaps: bool, from: Place, to: Place) -> Option<Obstruction> {
+    let d = from.to(to);
+    let transposed = d.y.unsigned_abs() > d.x.unsigned_abs();
+    let matrix = if transposed { grid.columns() } else { grid.rows() };
+    let turned = |at: Place| if transposed { Place { x: at.y, y: at.x } } else { at };
+    let found = Strips { matrix, gaps, from: turned(from), to: turned(to) }.first()?;
+    let placed = |(u, v): (i32, i32)| if transposed { (v, u) } else { (u, v) };
+    Some(match found {
+        Found::Cell(cell) => {
+            let (x, y) = placed(cell);
+            Obstruction::Cell { x, y }
+        }
+        Found::Between(cells) => Obstruction::Between { cells: cells.map(placed) },
+    })
 }
 
 /// A segment that is at least as long along the rows of a matrix as across them, which it crosses one after

@@ -73,10 +73,13 @@ pub enum Rules {
     Center(CornerRule),
     /// Vertices at cell corners.
     Corner(DiagonalGap),
+    /// Vertices at cell centers, at any angle: paths start and end there, or anywhere, and bend at corners of
+    /// obstacles, by the rule for corners.
+    CenterGap(DiagonalGap),
 }
 
 impl Rules {
-    /// All five combinations.
+    /// The five under which N(k) is searched.
     pub const ALL: [Self; 5] = [
         Self::Center(CornerRule::Never),
         Self::Center(CornerRule::One),
@@ -85,7 +88,14 @@ impl Rules {
         Self::Corner(DiagonalGap::Closed),
     ];
 
-    /// The place in [`ALL`](Self::ALL).
+    /// The two under which paths at any angle lead from center to center.
+    pub const BETWEEN_CENTERS: [Self; 2] =
+        [Self::CenterGap(DiagonalGap::Open), Self::CenterGap(DiagonalGap::Closed)];
+
+    /// The number of all of them.
+    pub(crate) const COUNT: usize = Self::ALL.len() + Self::BETWEEN_CENTERS.len();
+
+    /// The place in [`ALL`](Self::ALL), or after it in [`BETWEEN_CENTERS`](Self::BETWEEN_CENTERS).
     pub(crate) const fn number(self) -> usize {
         match self {
             Self::Center(CornerRule::Never) => 0,
@@ -93,16 +103,38 @@ impl Rules {
             Self::Center(CornerRule::Always) => 2,
             Self::Corner(DiagonalGap::Open) => 3,
             Self::Corner(DiagonalGap::Closed) => 4,
+            Self::CenterGap(DiagonalGap::Open) => 5,
+            Self::CenterGap(DiagonalGap::Closed) => 6,
         }
+    }
+
+    /// The rules in this place.
+    pub(crate) fn of_number(number: usize) -> Option<Self> {
+        Self::ALL.into_iter().chain(Self::BETWEEN_CENTERS).nth(number)
     }
 
     /// The placement alone.
     #[must_use]
     pub const fn placement(self) -> PlacementKind {
         match self {
-            Self::Center(_) => PlacementKind::Center,
+            Self::Center(_) | Self::CenterGap(_) => PlacementKind::Center,
             Self::Corner(_) => PlacementKind::Corner,
         }
+    }
+
+    /// The rule at gaps, if paths bend at corners.
+    #[must_use]
+    pub const fn gap(self) -> Option<DiagonalGap> {
+        match self {
+            Self::Corner(gap) | Self::CenterGap(gap) => Some(gap),
+            Self::Center(_) => None,
+        }
+    }
+
+    /// The corner rule, if paths bend at centers.
+    #[must_use]
+    pub const fn corners(self) -> Option<CornerRule> {
+        if let Self::Center(rule) = self { Some(rule) } else { None }
     }
 }
 
@@ -127,6 +159,7 @@ impl fmt::Display for Rules {
         match self {
             Self::Center(corners) => write!(f, "center, corners {corners}"),
             Self::Corner(gap) => write!(f, "corner, gap {gap}"),
+            Self::CenterGap(gap) => write!(f, "center, gap {gap}"),
         }
     }
 }

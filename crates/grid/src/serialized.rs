@@ -19,7 +19,7 @@ impl<'de> Deserialize<'de> for Vertex {
 
 /// A coordinate: an integer where it is whole.
 #[derive(Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number for a coordinate")]
 enum Coordinate {
     Whole(i32),
     Decimal(f64),

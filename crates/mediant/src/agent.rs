@@ -5,7 +5,7 @@ mod kept;
 use std::sync::Arc;
 
 use mediant_grid::{Clearance, Fit, Outside, Vertex};
-use mediant_search::{Answer, Ends, Limit, Limits, Path, Query};
+use mediant_search::{Answer, Limit, Limits, Path, PointEnds, Query};
 
 pub use self::kept::{Disc, Square};
 use crate::{choice::Choice, error::Error, map::Map, motion::Motion, setup_error::SetupError, space::Space};
@@ -135,7 +135,7 @@ impl Space {
         if surplus.is_nan() || surplus < 0.0 {
             return Err(mediant_search::QueryError::CostLimit.into());
         }
-        let Some(shortest) = self.path_of(Ends::new(start, goal), limits)? else { return Ok(None) };
+        let Some(shortest) = self.path_of(PointEnds::new(start, goal), limits)? else { return Ok(None) };
         // Two paths of one length can have sums that differ in the last digits.
         let greatest = match surplus {
             f64::INFINITY => f64::INFINITY,

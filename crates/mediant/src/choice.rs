@@ -1,8 +1,8 @@
 //! Recommends an engine, with the reason; and finds a path by it at once.
 
-use mediant_grid::{PlacementKind, Vertex};
+use mediant_grid::{PlacementKind, Point, Vertex};
 use mediant_moves::K;
-use mediant_search::{Answer, Ends, Limits, Path, Query};
+use mediant_search::{Answer, Ends, Limits, Path, PointEnds, Query};
 
 use crate::{
     call::Call, configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion,
@@ -178,12 +178,12 @@ impl Space {
     ///
     /// # Errors
     /// [`Error::Query`] for a start or goal that is blocked or outside the map.
-    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.path_of(Ends::new(start, goal), &Limits::new())
+    pub fn path(&self, start: impl Into<Point>, goal: impl Into<Point>) -> Result<Option<Path>, Error> {
+        self.path_of(PointEnds::new(start, goal), &Limits::new())
     }
 
     /// Of the limits only the deadline and the flag count.
-    pub(crate) fn path_of(&self, query: Ends, limits: &Limits) -> Result<Option<Path>, Error> {
+    pub(crate) fn path_of(&self, query: PointEnds, limits: &Limits) -> Result<Option<Path>, Error> {
         self.check_query(query)?;
         let index = self.within(limits).prepare_for_one_path(self.engine_for_one_path())?;
         whole(index.try_planner()?.find(within(query, limits))?)
@@ -213,8 +213,9 @@ impl Map {
 }
 
 /// The query, within limits if there are any.
-fn within(query: Ends, limits: &Limits) -> Query {
-    if limits.interrupt().is_never() { query.into() } else { Query::from(query).within(limits.clone()) }
+fn within(query: impl Into<Query>, limits: &Limits) -> Query {
+    let query = query.into();
+    if limits.interrupt().is_never() { query } else { query.within(limits.clone()) }
 }
 
 /// The path of an answer that no limit has stopped.

@@ -186,7 +186,7 @@ impl Error {
 const fn of_costs(error: &CostsError) -> ErrorCode {
     match error {
         CostsError::Size { .. } | CostsError::Inflated { .. } => ErrorCode::MapSize,
-        CostsError::K { .. } => ErrorCode::Motion,
+        CostsError::K { .. } | CostsError::Rules { .. } => ErrorCode::Motion,
         CostsError::CellSize { .. } | CostsError::Setting { .. } | CostsError::SmallInflation { .. } => {
             ErrorCode::Number
         }
@@ -235,7 +235,10 @@ const fn of_setup(error: &SetupError) -> ErrorCode {
         | SetupError::OtherEngine { .. }
         | SetupError::OtherPlanner { .. }
         | SetupError::OtherVariant { .. } => ErrorCode::EngineOption,
-        SetupError::Motion { .. } | SetupError::CostsK { .. } => ErrorCode::Motion,
+        SetupError::Motion { .. }
+        | SetupError::AnyAngleWithCorners
+        | SetupError::GapBetweenCenters { .. }
+        | SetupError::CostsK { .. } => ErrorCode::Motion,
         SetupError::LongSide { .. } => ErrorCode::MapSize,
         SetupError::WithoutCosts => ErrorCode::Cost,
         SetupError::K { .. } | SetupError::NeedsFiniteK { .. } => ErrorCode::EngineK,

@@ -2,9 +2,9 @@
 
 use std::{fmt, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt, Vertex};
+use mediant_grid::{Identity, Interrupt, Point, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{End, Ends, Query};
+use mediant_search::{End, PointEnds, Query};
 
 use crate::{
     error::Error,
@@ -34,7 +34,7 @@ pub struct Goals(Arc<Inner>);
 
 struct Inner {
     identity: Identity,
-    vertices: Vec<Vertex>,
+    points: Vec<Point>,
     /// By hub, if the index has hub labels.
     by_hub: Option<mediant_subgoal::Goals>,
 }
@@ -42,8 +42,8 @@ struct Inner {
 impl Goals {
     /// The goals, in the order in which they were given.
     #[must_use]
-    pub fn vertices(&self) -> &[Vertex] {
-        &self.0.vertices
+    pub fn points(&self) -> &[Point] {
+        &self.0.points
     }
 
     /// The identity: the map, rules and k of their index.
@@ -55,38 +55,39 @@ impl Goals {
 
 impl fmt::Debug for Goals {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Inner { identity, vertices, by_hub } = &*self.0;
+        let Inner { identity, points, by_hub } = &*self.0;
         let mut fields = f.debug_struct("Goals");
-        fields.field("identity", identity).field("goals", &vertices.len());
+        fields.field("identity", identity).field("goals", &points.len());
         fields.field("by_hub", &by_hub.is_some()).finish()
     }
 }
 
 impl Index {
     /// Prepares goals for its planners. With hub labels this takes about two queries for each goal, and each
-    /// start then far less than a query for each goal; with other indexes a start takes a query for each
-    /// goal.
+    /// start then far less than a query for each goal; with other indexes, and if the start or a goal is no
+    /// vertex of the labels, a start takes a query for each goal.
     ///
     /// # Errors
     /// [`Error::Query`] for the first goal that is blocked or outside the map.
-    pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
+    pub fn goals<G: Into<Point>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
         self.goals_of(goals.into_iter().map(Into::into).collect(), &NEVER)
     }
 
-    pub(crate) fn goals_of(&self, vertices: Vec<Vertex>, interrupt: &Interrupt) -> Result<Goals, Error> {
-        vertices.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
+    pub(crate) fn goals_of(&self, points: Vec<Point>, interrupt: &Interrupt) -> Result<Goals, Error> {
+        points.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
         // A stopped loop leaves goals out; the error after it says so.
         let mut going = Ok(());
-        let all = vertices.iter().copied().take_while(|_| {
+        let vertices: Option<Vec<Vertex>> = points.iter().map(|at| at.vertex()).collect();
+        let all = vertices.iter().flatten().copied().take_while(|_| {
             going = interrupt.check("preparing goals");
             going.is_ok()
         });
-        let by_hub = match self.labels() {
+        let by_hub = match self.labels().filter(|_| vertices.is_some()) {
             Some(labels) => Some(labels.goals(&mut { all })?),
             None => None,
         };
         going?;
-        Ok(Goals(Arc::new(Inner { identity: self.identity(), vertices, by_hub })))
+        Ok(Goals(Arc::new(Inner { identity: self.identity(), points, by_hub })))
     }
 }
 
@@ -97,16 +98,16 @@ impl Planner {
     /// # Errors
     /// [`Error::Mismatch`] for goals of another map, rule or k; [`Error::Query`] for a start that is blocked
     /// or outside the map, and where the engine gives up.
-    pub fn distances(&mut self, start: impl Into<Vertex>, goals: &Goals) -> Result<Vec<f64>, Error> {
+    pub fn distances(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Vec<f64>, Error> {
         let start = start.into();
-        if let Some((by_hub, Asked { search: Some(search), costs })) = self.by_hub(start, goals)? {
+        if let Some((start, by_hub, Asked { search: Some(search), costs })) = self.by_hub(start, goals)? {
             search.distances(start, by_hub, costs)?;
             return Ok(costs.iter().map(|cost| cost.map_or(f64::INFINITY, Cost::to_f64)).collect());
         }
-        let mut distance = |&goal: &Vertex| -> Result<f64, Error> {
-            Ok(self.distance(Ends::new(start, goal))?.unwrap_or(f64::INFINITY))
+        let mut distance = |&goal: &Point| -> Result<f64, Error> {
+            Ok(self.distance(PointEnds::new(start, goal))?.unwrap_or(f64::INFINITY))
         };
-        goals.vertices().iter().map(&mut distance).collect()
+        goals.points().iter().map(&mut distance).collect()
     }
 
     /// The number of the goal to which the path is the shortest, the first of several, and the length of that
@@ -116,17 +117,13 @@ impl Planner {
     ///
     /// # Errors
     /// As for [`distances`](Self::distances).
-    pub fn nearest(
-        &mut self,
-        start: impl Into<Vertex>,
-        goals: &Goals,
-    ) -> Result<Option<(usize, f64)>, Error> {
+    pub fn nearest(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Option<(usize, f64)>, Error> {
         let start = start.into();
-        if let Some((by_hub, Asked { search: Some(search), .. })) = self.by_hub(start, goals)? {
+        if let Some((start, by_hub, Asked { search: Some(search), .. })) = self.by_hub(start, goals)? {
             let nearest = search.nearest(start, by_hub)?;
             return Ok(nearest.map(|(goal, cost)| (goal, cost.to_f64())));
         }
-        if goals.vertices().is_empty() {
+        if goals.points().is_empty() {
             return Ok(None);
         }
         if self.index().setup().smoothing.is_some() {
@@ -136,30 +133,29 @@ impl Planner {
                 .min_by(|(_, a), (_, b)| a.total_cmp(b))
                 .filter(|(_, least)| least.is_finite()));
         }
-        let found = self.find(Query::between([start], goals.vertices().iter().copied()))?.into_path();
-        let end = |path: &mediant_search::Path| path.waypoints().last().copied();
+        let found = self.find(Query::between([start], goals.points().iter().copied()))?.into_path();
         Ok(found.and_then(|path| {
-            let end = end(&path)?;
+            let end = path.goal()?;
             let length = self.guarantee().length(&path);
-            Some((goals.vertices().iter().position(|&goal| goal == end)?, length))
+            Some((goals.points().iter().position(|&goal| goal == end)?, length))
         }))
     }
 
-    /// The goals by hub, and what asks for them; `None` where that is not what the planner's paths measure.
+    /// The start and the goals by hub, and what asks for them; `None` where that is not what the planner's
+    /// paths measure.
     fn by_hub<'g>(
         &mut self,
-        start: Vertex,
+        start: Point,
         goals: &'g Goals,
-    ) -> Result<Option<(&'g mediant_subgoal::Goals, &mut Asked)>, Error> {
+    ) -> Result<Option<(Vertex, &'g mediant_subgoal::Goals, &mut Asked)>, Error> {
         let index = self.index();
         index.identity().check("the index", ("the goals", goals.identity()))?;
         index.space().check_end(End::Start, start)?;
-        let Some(by_hub) = goals.0.by_hub.as_ref().filter(|_| index.setup().smoothing.is_none()) else {
-            return Ok(None);
-        };
+        let by_hub = goals.0.by_hub.as_ref().filter(|_| index.setup().smoothing.is_none());
+        let Some((by_hub, start)) = by_hub.zip(start.vertex()) else { return Ok(None) };
         if self.asked.search.is_none() {
             self.asked.search = self.index().labels().map(HasLabels::to_goals).transpose()?;
         }
-        Ok(Some((by_hub, &mut self.asked)))
+        Ok(Some((start, by_hub, &mut self.asked)))
     }
 }

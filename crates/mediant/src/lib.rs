@@ -317,7 +317,9 @@ pub use mediant_grid::{CornerRule, DiagonalGap, PlacementKind, Point, Rectangle,
 /// The mathematics of the neighborhoods: moves, h_k, bounds.
 pub use mediant_moves as moves;
 pub use mediant_moves::{Cost, FiniteK, K};
-pub use mediant_search::{Answer, Ends, Guarantee, Limit, Path, Query, Smoothing, Status, Stopped};
+pub use mediant_search::{
+    Answer, Ends, Guarantee, Limit, Path, PointEnds, Query, Smoothing, Status, Stopped,
+};
 pub use motion::Motion;
 pub use planner::Planner;
 pub use planners::Planners;

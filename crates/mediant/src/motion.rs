@@ -15,6 +15,8 @@ use mediant_moves::{FiniteK, K, KError};
 /// assert_eq!([Motion::centers(3), Motion::default()], [walker; 2]);
 /// // Any direction between the corners of cells.
 /// let drone = Motion::corners(K::ANY);
+/// // Any direction between the centers of cells: paths bend at corners of obstacles.
+/// assert_eq!(Motion::centers(K::ANY).to_string(), "center, gap closed, k = any");
 /// // Sixteen directions; a corner may be cut if one of the two cells beside it is free.
 /// let soldier = Motion::new(K::N16, CornerRule::One);
 /// assert_eq!(soldier.to_string(), "center, corners one, k = 4");
@@ -109,7 +111,7 @@ impl Motion {
     pub const MAX_K: u32 = GridGraph::<Centers>::MAX_K;
 
     /// N(k) under a [`CornerRule`] (vertices at centers), a [`DiagonalGap`] (vertices at corners), or either
-    /// of them as [`Rules`].
+    /// of them as [`Rules`]. Paths at any angle between centers have [`Rules::CenterGap`].
     #[must_use]
     pub fn new(k: impl IntoK, rules: impl Into<Rules>) -> Self {
         let (k, refused) = match k.into_k() {
@@ -120,9 +122,27 @@ impl Motion {
     }
 
     /// N(k) between the centers of cells; corners are never cut.
+    ///
+    /// At any angle a path bends at corners of obstacles, and starts and ends at centers, or at any other
+    /// points. It may not pass where two blocked cells touch diagonally, so that it connects what N(k) does
+    /// here: for the other rule make it [`Rules::CenterGap`] of an open gap. No path over N(k) between the
+    /// same two centers is shorter, under `never` and `one` with either rule, under `always` with gaps open.
+    ///
+    /// ```
+    /// use mediant::{K, Map, Motion};
+    ///
+    /// let map = Map::from_rows([".@.", "..."])?;
+    /// let length = |motion| -> Result<Option<f64>, mediant::Error> {
+    ///     Ok(map.space(motion)?.path((0, 0), (2, 0))?.map(|path| path.length()))
+    /// };
+    /// assert_eq!(length(Motion::centers(8))?, Some(4.0));
+    /// assert_eq!(length(Motion::centers(K::ANY))?, Some(1.0 + 2.0_f64.sqrt()));
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
     #[must_use]
     pub fn centers(k: impl IntoK) -> Self {
-        Self::new(k, CornerRule::default())
+        let motion = Self::new(k, CornerRule::default());
+        if motion.k == K::Any { Self::of(K::Any, Rules::CenterGap(DiagonalGap::Closed)) } else { motion }
     }
 
     /// N(k) between the corners of cells; paths may pass where two blocked cells touch diagonally.
@@ -148,7 +168,7 @@ impl Default for Motion {
     }
 }
 
-/// N(k) between the centers of cells; corners are never cut.
+/// [`Motion::centers`].
 impl<T: IntoK> From<T> for Motion {
     fn from(k: T) -> Self {
         Self::centers(k)

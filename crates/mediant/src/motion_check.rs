@@ -1,6 +1,6 @@
 //! Checks that a motion is one, and that engines search it.
 
-use mediant_grid::PlacementKind;
+use mediant_grid::Rules;
 use mediant_moves::{K, KError};
 
 use crate::{error::Error, motion::Motion, setup_error::SetupError};
@@ -22,12 +22,14 @@ impl Motion {
         Ok(self.check_searched()?)
     }
 
-    /// Checks that the k is not too large, and that it is not any angle between centers.
+    /// Checks that the k is not too large, and that the rules are for it: between centers a corner rule for
+    /// finite k, and a gap rule for any angle.
     pub(crate) fn check_searched(self) -> Result<(), SetupError> {
-        let is_searched = match self.k {
-            K::Finite(k) => k.get() <= Self::MAX_K,
-            K::Any => self.rules.placement() == PlacementKind::Corner,
-        };
-        if is_searched { Ok(()) } else { Err(SetupError::Motion { motion: self }) }
+        match (self.k, self.rules) {
+            (K::Finite(k), _) if k.get() > Self::MAX_K => Err(SetupError::Motion { motion: self }),
+            (K::Any, Rules::Center(_)) => Err(SetupError::AnyAngleWithCorners),
+            (K::Finite(k), Rules::CenterGap(_)) => Err(SetupError::GapBetweenCenters { k }),
+            _ => Ok(()),
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Whether a path still holds.
 
-use mediant_grid::{Centers, Corners};
+use mediant_grid::{Centers, Corners, PlacementKind};
 use mediant_search::{BrokenPath, Path};
 
 use crate::{
@@ -32,6 +32,9 @@ impl Space {
     pub fn check(&self, path: &Path) -> Result<(), BrokenPath> {
         match self.placed() {
             Placed::Centers(layers) => path.check(&layers.free),
+            Placed::Corners(layers) if self.is_between_centers() => {
+                path.at_corners().check(&layers.free).map_err(BrokenPath::at_centers)
+            }
             Placed::Corners(layers) => path.check(&layers.free),
         }
     }
@@ -55,6 +58,10 @@ impl Change {
     pub fn check(&self, path: &Path) -> Result<(), BrokenPath> {
         match self.after().placed() {
             Placed::Centers(layers) => path.check_after(&layers.free, self.of_grid()),
+            Placed::Corners(layers) if self.after().is_between_centers() => {
+                let checked = path.at_corners().check_after(&layers.free, self.of_grid());
+                checked.map_err(BrokenPath::at_centers)
+            }
             Placed::Corners(layers) => path.check_after(&layers.free, self.of_grid()),
         }
     }
@@ -67,9 +74,9 @@ impl Change {
         if self.has_costs() {
             return 0.0;
         }
-        match self.after().placed() {
-            Placed::Centers(_) => path.least_by_freed::<Centers>(self.of_grid()),
-            Placed::Corners(_) => path.least_by_freed::<Corners>(self.of_grid()),
+        match self.after().motion().rules.placement() {
+            PlacementKind::Center => path.least_by_freed::<Centers>(self.of_grid()),
+            PlacementKind::Corner => path.least_by_freed::<Corners>(self.of_grid()),
         }
     }
 }

@@ -19,9 +19,9 @@ use crate::{
 ///
 /// As text `ENGINE[:K[:RULE]][,OPTION…]`:
 /// - K is a number or `any`. Left out, it is 3, or `any` for Anya.
-/// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners. Left out, it is `never`,
-///   or `open` for K = `any` and for an engine that takes only corners. So `astar` solves the scenario files'
-///   own problem.
+/// - RULE is `never`, `one` or `always` at centers, `open` or `closed` at corners, and `center-open` or
+///   `center-closed` for K = `any` between centers. Left out, it is `never`, or `open` for K = `any` and for
+///   an engine that takes only corners. So `astar` solves the scenario files' own problem.
 /// - An OPTION is one of the engine's ([`EngineOption::ALL`](crate::options::EngineOption::ALL)), or `smooth`
 ///   or `taut`: paths are smoothed by [`Smoothing::Linear`] or by [`Smoothing::Taut`].
 ///
@@ -96,7 +96,9 @@ impl Setup {
             K::Any if !capabilities.any => return Err(self.needs_finite_k()),
             _ => {}
         }
-        let placement = rules.placement();
+        self.motion.check_searched()?;
+        // Paths at any angle between centers are searched between corners.
+        let placement = if rules.gap().is_some() { PlacementKind::Corner } else { rules.placement() };
         match capabilities.placements {
             [needed] if *needed != placement => Err(SetupError::placement(engine, *needed, placement)),
             _ if capabilities.few_k_at_centers && !is_few_k_at_centers(self.motion) => {
@@ -156,9 +158,9 @@ impl Setup {
 
 /// Whether k and rules are among those of an engine with few k at centers.
 fn is_few_k_at_centers(motion: Motion) -> bool {
-    match (motion.rules.placement(), motion.k) {
-        (PlacementKind::Corner, _) | (_, K::Finite(FiniteK::N4)) => true,
-        (PlacementKind::Center, K::Finite(FiniteK::N8)) => motion.rules == Rules::Center(CornerRule::Never),
-        (PlacementKind::Center, _) => false,
+    match (motion.rules, motion.k) {
+        (Rules::Corner(_) | Rules::CenterGap(_), _) | (_, K::Finite(FiniteK::N4)) => true,
+        (Rules::Center(rule), K::Finite(FiniteK::N8)) => rule == CornerRule::Never,
+        (Rules::Center(_), _) => false,
     }
 }

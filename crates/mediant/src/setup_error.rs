@@ -23,14 +23,25 @@ pub enum SetupError {
     },
     /// Motion that no engine searches.
     #[error(
-        "no engine searches {motion}: choose a k from 2 to {} (4 to {} neighbors), or placement corner for \
-         k = any",
+        "no engine searches {motion}: choose a k from 2 to {} (4 to {} neighbors), or any",
         Motion::MAX_K,
         2_u64.saturating_pow(Motion::MAX_K)
     )]
     Motion {
         /// The motion.
         motion: Motion,
+    },
+    /// A corner rule, for paths at any angle between centers.
+    #[error(
+        "at any angle paths between centers bend at corners of obstacles, where there is a rule for gaps and none \
+         for corners: choose gap open or closed, or a finite k"
+    )]
+    AnyAngleWithCorners,
+    /// A gap rule between centers, for paths over N(k).
+    #[error("between centers gap is for k = any; for k = {k} there is corners: never, one or always")]
+    GapBetweenCenters {
+        /// The k.
+        k: FiniteK,
     },
     /// A finite k that is larger than the engine takes.
     #[error("{engine} needs a k from 2 to {max}, found {k}")]

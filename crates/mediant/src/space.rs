@@ -9,7 +9,7 @@ use mediant_grid::{
     PlacementKind, Point, Rules, Vertex,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_search::{End, Ends, QueryError, Wavefront, parts::Metric};
+use mediant_search::{CenterSpace, End, EndSpace as _, PointEnds, QueryError, Wavefront, parts::Metric};
 use mediant_subgoal::SubgoalPlacement;
 
 #[cfg(feature = "costs")]
@@ -50,7 +50,7 @@ struct Inner {
     walk: Option<Walk>,
 }
 
-/// The free space and the grid graph, by placement.
+/// The free space and the grid graph, by the placement of the vertices at which paths bend.
 #[derive(Debug)]
 pub(crate) enum Placed {
     Centers(Layers<Centers>),
@@ -190,7 +190,9 @@ impl Space {
         let metric = Metric::new(motion.k)?;
         let placed = match motion.rules {
             Rules::Center(rule) => Placed::Centers(Layers::new(map, motion, rule, interrupt)?),
-            Rules::Corner(gap) => Placed::Corners(Layers::new(map, motion, gap, interrupt)?),
+            Rules::Corner(gap) | Rules::CenterGap(gap) => {
+                Placed::Corners(Layers::new(map, motion, gap, interrupt)?)
+            }
         };
         // Without what the map keeps, of which this space may become a part.
         let map = Arc::clone(map.grid()).into();
@@ -232,13 +234,23 @@ impl Space {
     /// all: it is [`connected`](Self::connected) to no other vertex then.
     #[must_use]
     pub fn is_free(&self, at: impl Into<Point>) -> bool {
-        let at = at.into();
+        let at = self.in_search(at.into());
         match (self.placed(), at.vertex()) {
             (Placed::Centers(layers), Some(at)) => layers.free.is_free(at),
             (Placed::Corners(layers), Some(at)) => layers.free.is_free(at),
             (Placed::Corners(layers), None) if self.takes_points() => layers.free.point_is_free(at),
             (_, None) => false,
         }
+    }
+
+    /// Whether paths lead between the centers of cells and bend at corners: at any angle.
+    pub(crate) fn is_between_centers(&self) -> bool {
+        matches!(self.motion().rules, Rules::CenterGap(_))
+    }
+
+    /// A point in the coordinates in which planners search.
+    pub(crate) fn in_search(&self, at: Point) -> Point {
+        if self.is_between_centers() { at.at_corners() } else { at }
     }
 
     /// Whether paths start and end at any point of the free space: at any angle.
@@ -250,7 +262,7 @@ impl Space {
     /// in constant time. (At k = 2 where corners are always cut, paths at any angle connect more than this.)
     #[must_use]
     pub fn connected(&self, from: impl Into<Point>, to: impl Into<Point>) -> bool {
-        let (from, to) = (from.into(), to.into());
+        let (from, to) = (self.in_search(from.into()), self.in_search(to.into()));
         match (self.placed(), from.vertex().zip(to.vertex())) {
             (Placed::Centers(layers), Some((from, to))) => layers.free.connected(from, to),
             (Placed::Corners(layers), Some((from, to))) => layers.free.connected(from, to),
@@ -265,7 +277,7 @@ impl Space {
     /// [`check`](Self::check) judges whole paths.
     #[must_use]
     pub fn sees(&self, from: impl Into<Point>, to: impl Into<Point>) -> bool {
-        let (from, to) = (from.into(), to.into());
+        let (from, to) = (self.in_search(from.into()), self.in_search(to.into()));
         match (self.placed(), from.vertex().zip(to.vertex())) {
             (Placed::Centers(layers), Some((from, to))) => layers.free.sees(from, to),
             (Placed::Corners(layers), Some((from, to))) => layers.free.sees(from, to),
@@ -366,19 +378,20 @@ impl Space {
     }
 
     /// Checks an end of a query.
-    pub(crate) fn check_end(&self, end: End, at: Vertex) -> Result<(), QueryError> {
+    pub(crate) fn check_end(&self, end: End, at: impl Into<Point>) -> Result<(), QueryError> {
+        let at = at.into();
         match self.placed() {
-            Placed::Centers(layers) => end.check(&layers.free, at),
-            Placed::Corners(layers) => end.check(&layers.free, at),
+            _ if at.vertex().is_none() && !self.takes_points() => Err(QueryError::Between { end, at }),
+            Placed::Centers(layers) => layers.free.check(end, at),
+            Placed::Corners(layers) if self.is_between_centers() => CenterSpace(&layers.free).check(end, at),
+            Placed::Corners(layers) => layers.free.check(end, at),
         }
     }
 
     /// Checks the ends of a query.
-    pub(crate) fn check_query(&self, query: Ends) -> Result<(), Error> {
-        Ok(match self.placed() {
-            Placed::Centers(layers) => query.check(&layers.free),
-            Placed::Corners(layers) => query.check(&layers.free),
-        }?)
+    pub(crate) fn check_query(&self, query: PointEnds) -> Result<(), Error> {
+        self.check_end(End::Start, query.start)?;
+        Ok(self.check_end(End::Goal, query.goal)?)
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use mediant_grid::{Interrupted, Vertex};
-use mediant_search::{Answer, End, Ends, Limits, Query};
+use mediant_grid::{Interrupted, Point};
+use mediant_search::{Answer, End, Limits, PointEnds, Query};
 
 use crate::{
     error::Error,
@@ -58,7 +58,7 @@ impl Index {
     ///
     /// # Errors
     /// [`Error::Query`] for the first end that is blocked or outside the map, and where the engine gives up.
-    pub fn table<S: Into<Vertex>, G: Into<Vertex>>(
+    pub fn table<S: Into<Point>, G: Into<Point>>(
         &self,
         starts: impl IntoIterator<Item = S>,
         goals: impl IntoIterator<Item = G>,
@@ -69,8 +69,8 @@ impl Index {
     /// Of the limits only the deadline and the flag count.
     pub(crate) fn table_of(
         &self,
-        starts: &[Vertex],
-        goals: &[Vertex],
+        starts: &[Point],
+        goals: &[Point],
         limits: &Limits,
     ) -> Result<Table, Error> {
         let stop = Stop { limits, stopped: OnceLock::new() };
@@ -93,7 +93,7 @@ impl Index {
             let first = chunk * Planners::CHUNK;
             planners.with(|planner| {
                 let numbers = first..count.min(first + Planners::CHUNK);
-                let ends = |index: usize| Ends::new(starts[index / columns], goals[index % columns]);
+                let ends = |index: usize| PointEnds::new(starts[index / columns], goals[index % columns]);
                 numbers.map(|index| stop.length(planner, ends(index))).collect()
             })
         };
@@ -123,7 +123,7 @@ impl Stop<'_> {
     }
 
     /// The length of the path of a query, infinite where there is none.
-    fn length(&self, planner: &mut Planner, ends: Ends) -> Result<f64, Error> {
+    fn length(&self, planner: &mut Planner, ends: PointEnds) -> Result<f64, Error> {
         self.check()?;
         let query = match self.limits.interrupt().is_never() {
             true => Query::from(ends),

@@ -10,6 +10,12 @@ use crate::{
     setup_error::TextError,
 };
 
+/// The names of all rules.
+const RULES: &str = "never, one, always, open, closed, center-open, center-closed";
+
+/// Stands before the gap rule of paths at any angle between centers.
+const BETWEEN_CENTERS: &str = "center-";
+
 /// All that may be written for an option, for an error.
 fn option_forms() -> String {
     let forms = EngineOption::ALL.map(EngineOption::forms);
@@ -20,7 +26,10 @@ fn option_forms() -> String {
 /// With k and rule in full, and the options that were chosen: what [`FromStr`] reads.
 impl fmt::Display for Setup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let rule = self.rule_name();
+        let rule = match self.rules() {
+            Rules::CenterGap(gap) => format!("{BETWEEN_CENTERS}{gap}"),
+            _ => self.rule_name(),
+        };
         let options = self.engine.chosen().into_iter().map(|(option, value)| option.text(value));
         let smoothing = self.smoothing.map(|smoothing| smoothing_name(smoothing).to_owned());
         let options: String = options.chain(smoothing).map(|option| format!(",{option}")).collect();
@@ -34,7 +43,7 @@ impl Setup {
     pub fn rule_name(&self) -> String {
         match self.rules() {
             Rules::Center(rule) => rule.to_string(),
-            Rules::Corner(gap) => gap.to_string(),
+            Rules::Corner(gap) | Rules::CenterGap(gap) => gap.to_string(),
         }
     }
 }
@@ -55,8 +64,7 @@ impl FromStr for Setup {
             k.parse().map_err(|_| error(format!("K is {}", k_range(capabilities))))
         })?;
         let rules = parts.next().map_or(Ok(capabilities.default_rules(k)), |rule| {
-            rules_named(rule)
-                .ok_or_else(|| error("the rules are never, one, always, open, closed".to_owned()))
+            rules_named(rule).ok_or_else(|| error(format!("the rules are {RULES}")))
         })?;
         if parts.next().is_some() {
             return Err(error("nothing but options may follow the rule".to_owned()));
@@ -83,7 +91,7 @@ fn rules_named(name: &str) -> Option<Rules> {
         "always" => Rules::Center(CornerRule::Always),
         "open" => Rules::Corner(DiagonalGap::Open),
         "closed" => Rules::Corner(DiagonalGap::Closed),
-        _ => return None,
+        _ => Rules::CenterGap(name.strip_prefix(BETWEEN_CENTERS)?.parse().ok()?),
     })
 }
 

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
-use mediant_grid::{Grid, PlacementKind, Vertex};
+use mediant_grid::{Grid, PlacementKind, Point};
 use mediant_moves::Cost;
-use mediant_search::{Answer, Ends, NodeEvent, Observer, Path};
+use mediant_search::{Answer, NodeEvent, Observer, Path, PointEnds};
 
 use crate::space::Space;
 
@@ -36,6 +36,10 @@ pub struct Tracer<'g, W: Write> {
     size: (u32, u32),
     /// The space, if its cells have costs.
     space: Option<Space>,
+    /// Whether paths lead between centers and bend at corners.
+    is_between_centers: bool,
+    /// The points between vertices, which have the numbers after those of all vertices.
+    points: Vec<Point>,
     /// The vertex that is being expanded.
     open: Option<TraceEvent>,
     /// The first error of the writer, after which nothing is written.
@@ -51,42 +55,57 @@ impl<'g, W: Write> Tracer<'g, W> {
         let more = u32::from(placement == PlacementKind::Corner);
         let size = (grid.width() + more, grid.height() + more);
         let trace = TraceWriter::new(out, &TraceHeader { placement, map: Some(grid) })?;
-        Ok(Self { trace, size, space: None, open: None, written: Ok(()) })
+        let (space, is_between_centers) = (None, false);
+        Ok(Self { trace, size, space, is_between_centers, points: Vec::new(), open: None, written: Ok(()) })
     }
 
-    /// The same for a search in this space, whose cells may have costs: costs are written as numbers of its
-    /// own, and not as lengths.
+    /// The same for a search in this space. Its cells may have costs: these are written as numbers of its
+    /// own, and not as lengths. Or paths may lead between centers at any angle, and bend at corners.
     #[must_use]
-    pub fn in_space(self, space: &Space) -> Self {
+    pub fn in_space(mut self, space: &Space) -> Self {
+        self.is_between_centers = space.is_between_centers();
+        if self.is_between_centers {
+            let map = space.map();
+            self.size = (map.width() + 1, map.height() + 1);
+        }
         Self { space: Some(space.clone()).filter(Space::has_costs), ..self }
     }
 
     /// Writes the start and the goal: those of the path, if found. An end outside the map has no event.
     /// Without an answer the search has not ended.
-    pub fn begin(&mut self, ends: Ends, answer: Option<&Answer>) {
-        let start = answer.and_then(path_of).and_then(|path| path.waypoints().first());
-        let goal = answer.and_then(Answer::path).and_then(|path| path.waypoints().last());
+    pub fn begin(&mut self, ends: impl Into<PointEnds>, answer: Option<&Answer>) {
+        let ends = ends.into();
+        let start = answer.and_then(path_of).and_then(Path::start);
+        let goal = answer.and_then(Answer::path).and_then(Path::goal);
         let events = [
-            (TraceEventKind::Source, *start.unwrap_or(&ends.start), Some(0.0)),
-            (TraceEventKind::Destination, *goal.unwrap_or(&ends.goal), None),
+            (TraceEventKind::Source, start.unwrap_or(ends.start), Some(0.0)),
+            (TraceEventKind::Destination, goal.unwrap_or(ends.goal), None),
         ];
         for (kind, at, g) in events {
-            if (0..self.size.0 as i32).contains(&at.x) && (0..self.size.1 as i32).contains(&at.y) {
-                self.write(kind, &TraceEvent { g, ..self.at(at) });
+            let at = self.searched(at);
+            let (low, high) = (at.floor(), at.ceil());
+            if low.x.min(low.y) >= 0 && high.x < self.size.0 as i32 && high.y < self.size.1 as i32 {
+                let event = TraceEvent { g, ..self.at(at) };
+                self.write(kind, &event);
             }
         }
+    }
+
+    /// A point in the coordinates of the search.
+    fn searched(&self, at: Point) -> Point {
+        if self.is_between_centers { at.at_corners() } else { at }
     }
 
     /// Ends the trace with the waypoints of the path, after a stopped search those of the best so far. So the
     /// visualizer shows the path as it is, even if it turns at a vertex that is not a node of the search.
     pub fn end(&mut self, answer: Option<&Answer>) {
         self.close();
-        let mut last: Option<(TraceEvent, Vertex)> = None;
-        for &at in answer.and_then(path_of).map_or(&[][..], Path::waypoints) {
+        let mut last: Option<(TraceEvent, Point)> = None;
+        for at in answer.and_then(path_of).into_iter().flat_map(Path::points) {
             let (parent, g) = last.map_or((None, 0.0), |(event, from)| {
                 (Some(event.id), event.g.unwrap_or(0.0) + self.between(from, at))
             });
-            let event = TraceEvent { parent, g: Some(g), ..self.at(at) };
+            let event = TraceEvent { parent, g: Some(g), ..self.at(self.searched(at)) };
             self.write(TraceEventKind::End, &event);
             last = Some((event, at));
         }
@@ -101,17 +120,29 @@ impl<'g, W: Write> Tracer<'g, W> {
         self.trace.finish()
     }
 
-    /// An event at a vertex, without anything else. Ids begin with 1, since the visualizer's path stops
-    /// before the id 0.
-    fn at(&self, at: Vertex) -> TraceEvent {
-        let id = at.y as u32 * self.size.0 + at.x as u32 + 1;
-        TraceEvent { id, parent: None, x: at.x, y: at.y, f: None, g: None }
+    /// An event at a point of the search, without anything else. Ids begin with 1, since the visualizer's
+    /// path stops before the id 0.
+    fn at(&mut self, at: Point) -> TraceEvent {
+        let id = match at.vertex() {
+            Some(at) => at.y as u32 * self.size.0 + at.x as u32,
+            None => {
+                let known = self.points.iter().position(|&point| point == at);
+                let place = known.unwrap_or(self.points.len());
+                if known.is_none() {
+                    self.points.push(at);
+                }
+                self.size.0 * self.size.1 + place as u32
+            }
+        };
+        let at = if self.is_between_centers { at.at_centers() } else { at };
+        TraceEvent { id: id + 1, parent: None, x: at.x(), y: at.y(), f: None, g: None }
     }
 
     /// An event of a node of the search.
-    fn node(&self, node: NodeEvent) -> TraceEvent {
-        let parent = node.parent.map(|parent| self.at(parent).id);
-        TraceEvent { parent, f: Some(self.number(node.f)), g: Some(self.number(node.g)), ..self.at(node.at) }
+    fn node(&mut self, node: NodeEvent) -> TraceEvent {
+        let parent = node.parent.map(|parent| self.at(parent.into()).id);
+        let (f, g) = (Some(self.number(node.f)), Some(self.number(node.g)));
+        TraceEvent { parent, f, g, ..self.at(node.at.into()) }
     }
 
     fn number(&self, cost: Cost) -> f64 {
@@ -119,8 +150,8 @@ impl<'g, W: Write> Tracer<'g, W> {
     }
 
     /// The cost of a segment of a path.
-    fn between(&self, from: Vertex, to: Vertex) -> f64 {
-        let cost = self.space.as_ref().and_then(|space| space.cost(&Path::new(vec![from, to])));
+    fn between(&self, from: Point, to: Point) -> f64 {
+        let cost = self.space.as_ref().and_then(|space| space.cost(&Path::through([from, to])));
         cost.unwrap_or_else(|| from.distance(to))
     }
 

@@ -2,9 +2,9 @@
 
 use std::path::Path as FilePath;
 
-use mediant_grid::{Clearance, Fit, Outside, Vertex};
+use mediant_grid::{Clearance, Fit, Outside, Point, Vertex};
 use mediant_moves::K;
-use mediant_search::{Ends, Limits, Path};
+use mediant_search::{Ends, Limits, Path, PointEnds};
 use mediant_subgoal::Progress;
 
 #[cfg(feature = "costs")]
@@ -250,8 +250,8 @@ impl Within<'_, Space> {
     ///
     /// # Errors
     /// As for [`Space::path`], and [`Error::Stopped`].
-    pub fn path(&self, start: impl Into<Vertex>, goal: impl Into<Vertex>) -> Result<Option<Path>, Error> {
-        self.of.path_of(Ends::new(start, goal), &self.limits)
+    pub fn path(&self, start: impl Into<Point>, goal: impl Into<Point>) -> Result<Option<Path>, Error> {
+        self.of.path_of(PointEnds::new(start, goal), &self.limits)
     }
 
     /// [`Space::fields`]: these limits stop each of the fields, too, and the time begins here. The only way
@@ -390,7 +390,7 @@ impl Within<'_, Index> {
     ///
     /// # Errors
     /// As for [`Index::goals`], and [`Error::Stopped`].
-    pub fn goals<G: Into<Vertex>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
+    pub fn goals<G: Into<Point>>(&self, goals: impl IntoIterator<Item = G>) -> Result<Goals, Error> {
         self.of.goals_of(goals.into_iter().map(Into::into).collect(), self.limits.interrupt())
     }
 
@@ -398,13 +398,13 @@ impl Within<'_, Index> {
     ///
     /// # Errors
     /// As for [`Index::table`], and [`Error::Stopped`].
-    pub fn table<S: Into<Vertex>, G: Into<Vertex>>(
+    pub fn table<S: Into<Point>, G: Into<Point>>(
         &self,
         starts: impl IntoIterator<Item = S>,
         goals: impl IntoIterator<Item = G>,
     ) -> Result<Table, Error> {
-        let starts: Vec<Vertex> = starts.into_iter().map(Into::into).collect();
-        let goals: Vec<Vertex> = goals.into_iter().map(Into::into).collect();
+        let starts: Vec<Point> = starts.into_iter().map(Into::into).collect();
+        let goals: Vec<Point> = goals.into_iter().map(Into::into).collect();
         self.of.table_of(&starts, &goals, &self.limits)
     }
 }

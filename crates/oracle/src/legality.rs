@@ -80,6 +80,8 @@ impl Footprint {
             Rules::Center(CornerRule::One) => self.touched.iter().all(|cells| cells.iter().any(free)),
             Rules::Center(CornerRule::Always) => true,
             Rules::Corner(DiagonalGap::Open) => true,
+            // No move has them: paths bend at corners then.
+            Rules::CenterGap(_) => false,
             Rules::Corner(DiagonalGap::Closed) => {
                 !self.between.iter().any(|&vertex| is_gap(grid, at + vertex))
             }

@@ -3,7 +3,6 @@
 use mediant::{
     Answer, Engine, Error, ErrorCode, Guarantee, Limit, Path, Planner, Rules, Stopped, search::Counters,
 };
-use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use crate::{arrays::PathPoints, errors::made};
@@ -16,7 +15,8 @@ use crate::{arrays::PathPoints, errors::made};
 ///     ``"found"``; ``"unreachable"``: there is no path; ``"nearest"``: there is none, and the path leads to
 ///     the reachable vertex that is nearest to the goal; ``"stopped"``: a limit stopped the search.
 /// path : numpy.ndarray or None
-///     The path, shape (n, 2), int32: of a found or nearest answer.
+///     The path, shape (n, 2), int32: of a found or nearest answer. Of a path at any angle that leads
+///     through points between vertices float64.
 /// distance : float
 ///     Its length in cells, as `Grid.distance` measures it: where cells have costs its cost. ``inf`` if
 ///     unreachable, ``nan`` if stopped.
@@ -34,10 +34,11 @@ use crate::{arrays::PathPoints, errors::made};
 ///     the engine guarantees that it is shortest, else 0; of a stopped answer what the search has ruled out;
 ///     ``inf`` where there is no path, also of a nearest answer.
 /// any_angle_lower_bound : float or None
-///     The certificate of the path, in cells: no path at any angle between its two ends under the same rules
-///     is shorter. It is the length of the path divided by `Index.bound`, or the straight line if that is
-///     longer. ``distance / any_angle_lower_bound`` says how far the path can be from the best at most. None
-///     without a path.
+///     The certificate of the path, in cells: no path at any angle between its two ends is shorter, though
+///     it bends at corners of obstacles. At corners it is the length of the path divided by `Index.bound`,
+///     or the straight line if that is longer; between centers the shortest path at any angle, if that was
+///     asked for, or the straight line. ``distance / any_angle_lower_bound`` says how far the path can be
+///     from the best at most. None without a path.
 /// counters : dict or None
 ///     The numbers of events of the search, if they were asked for.
 /// searched_by : str or None
@@ -61,7 +62,7 @@ pub(crate) struct PyAnswer {
     status: &'static str,
     /// The path, shape (n, 2).
     #[pyo3(get)]
-    path: Option<Py<PyArray2<i32>>>,
+    path: Option<Py<PyAny>>,
     /// The length of the path in cells; where cells have costs its cost.
     #[pyo3(get)]
     distance: f64,
@@ -73,7 +74,7 @@ pub(crate) struct PyAnswer {
     stopped_by: Option<&'static str>,
     /// The best path so far of a search that was stopped.
     #[pyo3(get)]
-    best: Option<Py<PyArray2<i32>>>,
+    best: Option<Py<PyAny>>,
     /// No path is shorter.
     #[pyo3(get)]
     lower_bound: f64,
@@ -134,7 +135,7 @@ impl PyAnswer {
         rules: Rules,
         Searched { guarantee, counters, by }: Searched,
     ) -> PyResult<Self> {
-        let array = |path| points.array(py, path, rules.placement()).map(Bound::unbind);
+        let array = |path| points.array(py, path, rules).map(Bound::unbind);
         let distance = answer.distance(guarantee);
         // Elsewhere the distance is the length, rounded as searches do.
         let on_costs = |path: &&Path| path.cost().to_bits() != path.length().to_bits();

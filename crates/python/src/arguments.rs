@@ -2,25 +2,27 @@
 
 use std::{path::PathBuf, str::FromStr};
 
-use mediant::{Vertex, errors::UnknownName};
+use mediant::{Point, Vertex, errors::UnknownName};
 use numpy::{PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::{
     exceptions::{PyOverflowError, PyTypeError},
     prelude::*,
-    types::{PyBool, PyBytes, PyInt, PyMemoryView, PyString, PyTuple},
+    types::{PyBool, PyBytes, PyFloat, PyInt, PyMemoryView, PyString, PyTuple},
 };
 
 use crate::errors::{argument, far_outside, instead, raised_for, wrong_type};
 
 /// The form of a point, for errors.
-const POINT: &str = "a point (row, column) of two integers";
+const POINT: &str = "a point (row, column) of two numbers";
 /// The form of one or several points, for errors.
-const POINTS: &str = "a point (row, column), or an integer array of points with shape (n, 2)";
+const POINTS: &str = "a point (row, column), or an array of points with shape (n, 2)";
+/// The form of vertices, for errors.
+const WHOLE: &str = "whole numbers: points between vertices are for paths at any angle";
 
 /// One point, or several.
 pub(crate) enum Points {
-    One(Vertex),
-    Several(Vec<Vertex>),
+    One(Point),
+    Several(Vec<Point>),
 }
 
 impl Points {
@@ -38,23 +40,39 @@ impl Points {
         }
     }
 
-    pub(crate) fn as_slice(&self) -> &[Vertex] {
+    pub(crate) fn as_slice(&self) -> &[Point] {
         match self {
             Self::One(at) => std::slice::from_ref(at),
             Self::Several(all) => all,
         }
     }
 
-    pub(crate) fn into_vec(self) -> Vec<Vertex> {
+    pub(crate) fn into_vec(self) -> Vec<Point> {
         match self {
             Self::One(at) => vec![at],
             Self::Several(all) => all,
         }
     }
+
+    /// The points, where they are vertices.
+    pub(crate) fn into_vertices(self, name: &str) -> PyResult<Vec<Vertex>> {
+        self.into_vec().into_iter().map(|at| whole(name, at)).collect()
+    }
+}
+
+/// The point as a vertex.
+fn whole(name: &str, at: Point) -> PyResult<Vertex> {
+    let wrong = || argument(name, &format!("expected {WHOLE}; found ({}, {})", at.y(), at.x()));
+    at.vertex().ok_or_else(wrong)
+}
+
+/// The one vertex of an argument.
+pub(crate) fn vertex(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vertex> {
+    whole(name, point(name, value)?)
 }
 
 /// The one point of an argument.
-pub(crate) fn point(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vertex> {
+pub(crate) fn point(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Point> {
     if let Some(at) = pair(name, value)? {
         return Ok(at);
     }
@@ -66,32 +84,45 @@ pub(crate) fn point(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vertex> {
 }
 
 /// The points of an argument with shape (n, 2), as a path is.
-pub(crate) fn path_points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Vertex>> {
+pub(crate) fn path_points(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Point>> {
     let array = as_array(name, value)?;
     match array.shape() {
         [_, 2] => rows_of(name, &array),
         shape => {
-            let wrong =
-                format!("expected an integer array of points with shape (n, 2), found shape {shape:?}");
+            let wrong = format!("expected an array of points with shape (n, 2), found shape {shape:?}");
             Err(argument(name, &wrong))
         }
     }
 }
 
-/// The point of a tuple of two whole numbers, by far the most frequent form; `None` for any other form.
-fn pair(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Vertex>> {
+/// The point of a tuple of two numbers, by far the most frequent form; `None` for any other form.
+fn pair(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Point>> {
     let Ok(tuple) = value.cast::<PyTuple>() else { return Ok(None) };
     if tuple.len() != 2 {
         return Ok(None);
     }
-    let mut at = [0; 2];
-    for (item, to) in tuple.iter_borrowed().zip(&mut at) {
-        if !item.is_exact_instance_of::<PyInt>() {
-            return Ok(None);
-        }
-        *to = item.extract::<i32>().map_err(|_| far_outside(name))?;
+    let (row, column) = (tuple.get_borrowed_item(0)?, tuple.get_borrowed_item(1)?);
+    if row.is_exact_instance_of::<PyInt>() && column.is_exact_instance_of::<PyInt>() {
+        let far = |_| far_outside(name);
+        let (row, column) = (row.extract::<i32>().map_err(far)?, column.extract::<i32>().map_err(far)?);
+        return Ok(Some(Vertex::new(column, row).into()));
     }
-    Ok(Some(Vertex::new(at[1], at[0])))
+    let is_number = |item: &Bound<'_, PyAny>| {
+        item.is_exact_instance_of::<PyFloat>() || item.is_exact_instance_of::<PyInt>()
+    };
+    if !(is_number(&row) && is_number(&column)) {
+        return Ok(None);
+    }
+    let far = |_| far_outside(name);
+    nearest(name, row.extract().map_err(far)?, column.extract().map_err(far)?).map(Some)
+}
+
+/// The point at a row and a column.
+fn nearest(name: &str, row: f64, column: f64) -> PyResult<Point> {
+    if row.is_nan() || column.is_nan() {
+        return Err(argument(name, "a row or column is no number"));
+    }
+    Point::nearest(column, row).ok_or_else(|| far_outside(name))
 }
 
 /// The argument as an array of numbers.
@@ -103,8 +134,8 @@ fn as_array<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, P
         |cause| instead(value.py(), cause, argument(name, &format!("expected {POINTS}, found no array")));
     let array = numpy_function(value.py(), "asarray")?.call1((value,)).map_err(wrong)?;
     let array = array.cast_into::<PyUntypedArray>().map_err(|_| wrong_type(name, POINTS, value))?;
-    let is_integer = matches!(array.dtype().kind(), b'i' | b'u');
-    if !is_integer && !array.is_empty() {
+    let is_number = matches!(array.dtype().kind(), b'i' | b'u' | b'f');
+    if !is_number && !array.is_empty() {
         // Python's own numbers that are too large for NumPy's become objects.
         if array.dtype().kind() == b'O' && is_all_integers(&array)? {
             return Err(far_outside(name));
@@ -141,13 +172,18 @@ fn reshaped<'py>(array: &Bound<'py, PyUntypedArray>) -> PyResult<Bound<'py, PyUn
     Ok(array.call_method1("reshape", ((1, 2),))?.cast_into()?)
 }
 
-/// The points of an integer array of shape (n, 2). Arrays of 32 and 64 bits are read where they are.
-fn rows_of(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<Vertex>> {
+/// The points of an array of shape (n, 2). Integers of 32 and 64 bits are read where they are.
+fn rows_of(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<Point>> {
     if array.is_empty() {
         return Ok(Vec::new());
     }
     if let Ok(array) = array.extract::<PyReadonlyArray2<'_, i32>>() {
-        return Ok(array.as_array().rows().into_iter().map(|at| Vertex::new(at[1], at[0])).collect());
+        return Ok(array.as_array().rows().into_iter().map(|at| Vertex::new(at[1], at[0]).into()).collect());
+    }
+    if array.dtype().kind() == b'f' {
+        let doubles = array.call_method1("astype", ("float64",))?;
+        let doubles = doubles.extract::<PyReadonlyArray2<'_, f64>>()?;
+        return doubles.as_array().rows().into_iter().map(|at| nearest(name, at[0], at[1])).collect();
     }
     let wide;
     let array = match array.extract::<PyReadonlyArray2<'_, i64>>() {
@@ -163,7 +199,7 @@ fn rows_of(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<Vertex
     };
     let narrow = |number: i64| i32::try_from(number).map_err(|_| far_outside(name));
     let rows = array.as_array();
-    rows.rows().into_iter().map(|at| Ok(Vertex::new(narrow(at[1])?, narrow(at[0])?))).collect()
+    rows.rows().into_iter().map(|at| Ok(Vertex::new(narrow(at[1])?, narrow(at[0])?).into())).collect()
 }
 
 /// A function of NumPy.

@@ -1,6 +1,6 @@
 //! Maps from arrays, and arrays from paths.
 
-use mediant::{Limits, Map, Path, PlacementKind, Vertex, grid::Grid, names};
+use mediant::{Limits, Map, Path, PlacementKind, Rules, Vertex, grid::Grid, names};
 use mediant_formats::Picture;
 use numpy::{
     PyArray1, PyArray2, PyArrayDescrMethods, PyReadonlyArray2, PyUntypedArray, PyUntypedArrayMethods,
@@ -239,13 +239,23 @@ impl PathPoints {
         value.map_or(Ok(Self::Waypoints), |value| word("points", value))
     }
 
-    /// Adds the points of a path to a flat list of rows and columns.
-    pub(crate) fn add(self, path: &Path, placement: PlacementKind, to: &mut Vec<i32>) {
-        match self {
-            Self::Waypoints => add(path.waypoints().iter().copied(), to),
-            Self::Vertices => add(path.vertices(), to),
-            Self::Touched => add(path.touched_cells(placement).map(Vertex::from), to),
+    /// Adds the points of a path, if they are whole, to a flat list of rows and columns.
+    pub(crate) fn add(self, path: &Path, rules: Rules, to: &mut Vec<i32>) {
+        match (self, rules) {
+            (Self::Waypoints, _) => add(path.waypoints().iter().copied(), to),
+            (Self::Vertices, _) => add(path.vertices(), to),
+            (Self::Touched, Rules::CenterGap(_)) => {
+                let cells = path.at_corners().touched_cells(PlacementKind::Corner).collect::<Vec<_>>();
+                add(cells.into_iter().map(Vertex::from), to);
+            }
+            (Self::Touched, _) => add(path.touched_cells(rules.placement()).map(Vertex::from), to),
         }
+    }
+
+    /// Whether the points of a path are whole: all but those of one that leads through points that are no
+    /// vertices.
+    pub(crate) fn are_whole(self, path: &Path) -> bool {
+        self == Self::Touched || path.waypoints().len() == path.len()
     }
 
     /// The points of a path as an array of shape (n, 2).
@@ -253,11 +263,14 @@ impl PathPoints {
         self,
         py: Python<'py>,
         path: &Path,
-        placement: PlacementKind,
-    ) -> PyResult<Bound<'py, PyArray2<i32>>> {
-        let mut flat = Vec::with_capacity(2 * path.waypoints().len());
-        self.add(path, placement, &mut flat);
-        points_array(py, &flat)
+        rules: Rules,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if !self.are_whole(path) {
+            return rows_array(py, path.points().flat_map(|at| [at.y(), at.x()]).collect(), 2);
+        }
+        let mut flat = Vec::with_capacity(2 * path.len());
+        self.add(path, rules, &mut flat);
+        Ok(points_array(py, &flat)?.into_any())
     }
 }
 

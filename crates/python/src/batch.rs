@@ -11,7 +11,7 @@ use std::{
 };
 
 use mediant::{
-    Answer, Ends, Error, Guarantee, Index, PlacementKind, Planner, Planners, Query, Status, Vertex,
+    Answer, Error, Guarantee, Index, Planner, Planners, Point, PointEnds, Query, Rules, Status,
     errors::QueryError, names,
 };
 use numpy::PyArray1;
@@ -146,8 +146,8 @@ pub(crate) fn callback<'py>(value: Option<&Bound<'py, PyAny>>) -> PyResult<Optio
 
 /// The queries of a batch: from each start to the goal of the same number, or in a table to each goal.
 pub(crate) struct Queries {
-    starts: Vec<Vertex>,
-    goals: Vec<Vertex>,
+    starts: Vec<Point>,
+    goals: Vec<Point>,
     is_table: bool,
     keywords: Keywords,
 }
@@ -192,13 +192,18 @@ impl Queries {
         }
     }
 
-    fn ends(&self, index: usize) -> Ends {
+    fn ends(&self, index: usize) -> PointEnds {
         let Self { starts, goals, .. } = self;
         if self.is_table {
-            return Ends::new(starts[index / goals.len()], goals[index % goals.len()]);
+            return PointEnds::new(starts[index / goals.len()], goals[index % goals.len()]);
         }
-        let at = |ends: &[Vertex]| ends[if ends.len() == 1 { 0 } else { index }];
-        Ends::new(at(starts), at(goals))
+        let at = |ends: &[Point]| ends[if ends.len() == 1 { 0 } else { index }];
+        PointEnds::new(at(starts), at(goals))
+    }
+
+    /// Whether all ends are vertices.
+    fn are_whole(&self) -> bool {
+        self.starts.iter().chain(&self.goals).all(|at| at.vertex().is_some())
     }
 
     /// Whether their searches are watched.
@@ -225,6 +230,8 @@ impl Queries {
 #[derive(Default)]
 struct Chunk {
     points: Vec<i32>,
+    /// The points of its paths instead, where these may lead through points between vertices.
+    decimals: Vec<f64>,
     /// The number of points of each path.
     lengths: Vec<u32>,
     distances: Vec<f64>,
@@ -238,14 +245,18 @@ impl Chunk {
         &mut self,
         index: usize,
         answer: &Result<Answer, QueryError>,
-        (points, placement, guarantee): (PathPoints, PlacementKind, Guarantee),
+        (points, rules, guarantee): (PathPoints, Rules, Guarantee),
+        are_whole: bool,
     ) {
-        let known = self.points.len();
+        let known = self.points.len() + self.decimals.len();
         if let Some(path) = answer.as_ref().ok().and_then(Answer::path) {
-            points.add(path, placement, &mut self.points);
+            match are_whole {
+                true => points.add(path, rules, &mut self.points),
+                false => self.decimals.extend(path.points().flat_map(|at| [at.y(), at.x()])),
+            }
         }
         self.statuses.push(answer.as_ref().map_or(INVALID, |answer| answer.status() as u8));
-        self.lengths.push(((self.points.len() - known) / 2) as u32);
+        self.lengths.push(((self.points.len() + self.decimals.len() - known) / 2) as u32);
         let distance = answer.as_ref().map(|answer| answer.distance(guarantee)).map_err(Clone::clone);
         self.add_distance(index, distance);
     }
@@ -303,14 +314,16 @@ pub(crate) fn paths(
 ) -> PyResult<Paths> {
     let index = planners.index();
     let (setup, is_watched) = (index.setup(), queries.are_watched(index));
-    let placement = setup.rules().placement();
+    let rules = setup.rules();
+    let is_between_centers = matches!(rules, Rules::CenterGap(_));
+    let are_whole = points == PathPoints::Touched || queries.are_whole() && !is_between_centers;
     let all = Numbered::queries(queries.count());
     let answer = move |chunk: &mut Chunk, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
         let found = planner.find(queries.query(index, is_watched.then_some(flag)));
-        chunk.add_path(index, &found, (points, placement, planner.guarantee()));
+        chunk.add_path(index, &found, (points, rules, planner.guarantee()), are_whole);
     };
     let chunks = checked(batch.run(py, planners, all, answer)?, batch)?;
-    let (points, offsets, distances, statuses) = py.detach(|| {
+    let (points, decimals, offsets, distances, statuses) = py.detach(|| {
         let mut end = 0;
         let ends = chunks.iter().flat_map(|chunk| &chunk.lengths).map(|&length| {
             end += i64::from(length);
@@ -318,10 +331,17 @@ pub(crate) fn paths(
         });
         let offsets: Vec<i64> = std::iter::once(0).chain(ends).collect();
         let points = flat(&chunks, |chunk| &chunk.points);
-        (points, offsets, flat(&chunks, |chunk| &chunk.distances), flat(&chunks, |chunk| &chunk.statuses))
+        let decimals = flat(&chunks, |chunk| &chunk.decimals);
+        (
+            points,
+            decimals,
+            offsets,
+            flat(&chunks, |chunk| &chunk.distances),
+            flat(&chunks, |chunk| &chunk.statuses),
+        )
     });
     Ok(Paths {
-        points: rows_array(py, points, 2)?.unbind(),
+        points: if are_whole { rows_array(py, points, 2)? } else { rows_array(py, decimals, 2)? }.unbind(),
         offsets: PyArray1::from_vec(py, offsets).unbind(),
         distances: PyArray1::from_vec(py, distances).unbind(),
         statuses: PyArray1::from_vec(py, statuses).unbind(),

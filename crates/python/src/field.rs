@@ -2,11 +2,10 @@
 
 use mediant::{DirectionCode, ErrorCode, Ground, PlacementKind, Vertex, names};
 use mediant_formats::Picture;
-use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyBytes};
 
 use crate::{
-    arguments::{point as vertex, word},
+    arguments::{vertex, word},
     arrays::{PathPoints, png_of, rows_array},
     errors::{exception, raised, wrong_type},
 };
@@ -218,11 +217,11 @@ impl Field {
         &self,
         point: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let (py, points) = (point.py(), PathPoints::read(points)?);
         self.check_heading(Heading::To)?;
         let path = self.inner.path_from(vertex("point", point)?);
-        path.map(|path| points.array(py, &path, self.placement)).transpose()
+        path.map(|path| points.array(py, &path, self.inner.identity().rules)).transpose()
     }
 
     /// The shortest path from the nearest source to a vertex: `path_from` the other way.
@@ -254,11 +253,11 @@ impl Field {
         &self,
         point: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let (py, points) = (point.py(), PathPoints::read(points)?);
         self.check_heading(Heading::From)?;
         let path = self.inner.path_to(vertex("point", point)?);
-        path.map(|path| points.array(py, &path, self.placement)).transpose()
+        path.map(|path| points.array(py, &path, self.inner.identity().rules)).transpose()
     }
 
     /// The source that is nearest to a vertex.

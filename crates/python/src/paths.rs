@@ -1,6 +1,6 @@
 //! The answers to many queries.
 
-use numpy::{PyArray1, PyArray2};
+use numpy::PyArray1;
 use pyo3::{
     exceptions::PyIndexError,
     prelude::*,
@@ -14,7 +14,8 @@ use crate::errors::{argument, wrong_type};
 /// Attributes
 /// ----------
 /// points : numpy.ndarray
-///     The points of all paths, one after the other: shape (m, 2), int32.
+///     The points of all paths, one after the other: shape (m, 2), int32; float64 where ends are between
+///     vertices, and at any angle between centers.
 /// offsets : numpy.ndarray
 ///     Shape (n + 1,), int64: path i has the points from ``offsets[i]`` up to ``offsets[i + 1]``. Where there
 ///     is no path the two are equal.
@@ -89,7 +90,7 @@ impl Paths {
     /// The answers with these arrays.
     #[staticmethod]
     fn _of_arrays(
-        points: Bound<'_, PyArray2<i32>>,
+        points: Bound<'_, PyAny>,
         offsets: Bound<'_, PyArray1<i64>>,
         distances: Bound<'_, PyArray1<f64>>,
         statuses: Bound<'_, PyArray1<u8>>,
@@ -99,7 +100,7 @@ impl Paths {
             return Err(argument("offsets", "expected one more than there are distances and statuses"));
         }
         Ok(Self {
-            points: points.into_any().unbind(),
+            points: points.unbind(),
             offsets: offsets.unbind(),
             distances: distances.unbind(),
             statuses: statuses.unbind(),

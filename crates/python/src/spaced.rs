@@ -44,7 +44,7 @@ pub(crate) fn spaced<'py>(
     path: &Bound<'py, PyAny>,
     spacing: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (py, path) = (path.py(), Path::new(path_points("path", path)?));
+    let (py, path) = (path.py(), Path::through(path_points("path", path)?));
     let spacing = number("spacing", spacing)?;
     let points = path.spaced(spacing).map_err(|error| argument("spacing", &error.to_string()))?;
     let count = path.cost() / spacing;

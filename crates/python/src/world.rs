@@ -3,7 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use mediant::{
-    Map, Vertex,
+    Map, Point,
     files::{WorldError, WorldFrame},
 };
 use pyo3::{prelude::*, types::PyTuple};
@@ -160,11 +160,42 @@ impl World {
         Ok(at.map(|at| (at.y, at.x)))
     }
 
-    /// The places of vertices in the world.
+    /// The point of the map at a place of the world, for a path at any angle.
     ///
     /// Parameters
     /// ----------
-    /// points : array_like of int
+    /// x, y : float
+    ///     The place, in meters.
+    /// placement : {"center", "corner"}
+    ///     Whether (0, 0) is the middle of the first cell, or the corner of the map.
+    ///
+    /// Returns
+    /// -------
+    /// tuple of float or None
+    ///     (row, column), rounded to multiples of 1/1024 of a cell; None for a place outside the map.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import mediant
+    /// >>> world = mediant.World(0.5, (-1, -2), shape=(6, 8))
+    /// >>> world.place_at(-0.75, 0.25, placement="corner"), world.place_at(-0.75, 0.25)
+    /// ((1.5, 0.5), (1.0, 0.0))
+    #[pyo3(signature = (x, y, *, placement = None), text_signature = "($self, x, y, *, placement='center')")]
+    fn place_at(
+        &self,
+        x: &Bound<'_, PyAny>,
+        y: &Bound<'_, PyAny>,
+        placement: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Option<(f64, f64)>> {
+        let at = self.frame.place_at(kind(placement)?, number("x", x)?, number("y", y)?);
+        Ok(at.map(|at| (at.y(), at.x())))
+    }
+
+    /// The places of vertices, or points of the map, in the world.
+    ///
+    /// Parameters
+    /// ----------
+    /// points : array_like
     ///     A point (row, column), or several with shape (n, 2), such as a path.
     /// placement : {"center", "corner"}
     ///     Where the vertices are.
@@ -188,7 +219,7 @@ impl World {
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, placement) = (points.py(), kind(placement)?);
         let read = Points::read("points", points)?;
-        let place = |&at: &Vertex| <[f64; 2]>::from(self.frame.point_of(placement, at));
+        let place = |&at: &Point| <[f64; 2]>::from(self.frame.point_of(placement, at));
         let flat: Vec<f64> = read.as_slice().iter().flat_map(place).collect();
         let array = rows_array(py, flat, 2)?;
         match read {

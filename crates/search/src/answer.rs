@@ -85,6 +85,17 @@ impl Answer {
         }
     }
 
+    /// The answer of a search between corners in the coordinates of [`CenterSpace`](crate::CenterSpace).
+    #[must_use]
+    pub fn at_centers(self) -> Self {
+        match self {
+            Self::Found(path) => Self::Found(path.at_centers()),
+            Self::Nearest(path) => Self::Nearest(path.at_centers()),
+            Self::Stopped(stopped) => Self::Stopped(Stopped { best: stopped.best.at_centers(), ..stopped }),
+            Self::Unreachable => Self::Unreachable,
+        }
+    }
+
     /// Its kind.
     #[must_use]
     pub const fn status(&self) -> Status {
@@ -135,10 +146,11 @@ impl Answer {
         }
     }
 
-    /// The certificate of the path: no path at any angle between the same two ends under the same rules
-    /// is shorter than this, in cells. It is the length of the path divided by the [bound](Guarantee::bound)
-    /// of the engine's guarantee, or the straight line if that is longer. `None` without a path, and on a
-    /// cost surface. The length divided by it says how far the path can be from the best at most.
+    /// The certificate of the path: no path at any angle between the same two ends is shorter than this, in
+    /// cells, though it bends at corners of obstacles. It is the length of the path divided by the
+    /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer; at centers
+    /// the any-angle optimum itself or the straight line ([`Guarantee::lower_bound`]). `None` without a path,
+    /// and on a cost surface. The length divided by it says how far the path can be from the best at most.
     ///
     /// ```
     /// use mediant_grid::{DiagonalGap, Rules};

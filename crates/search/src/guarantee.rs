@@ -48,8 +48,12 @@ impl fmt::Display for Guarantee {
 impl Guarantee {
     /// The suboptimality bound: the greatest cost of a path, as a multiple of the any-angle optimum between
     /// the same two vertices under the same rules. For N(k) by Kramm 2018, Theorems 2 and 3, see
-    /// [`bound_at_corners`] and [`bound_at_centers`]. (At centers any-angle paths bend at centers, too:
-    /// against those that bend at cell corners Theorem 3 does not hold.) `None` where no bound is proven.
+    /// [`bound_at_corners`] and [`bound_at_centers`]. `None` where no bound is proven.
+    ///
+    /// **At centers** N(k) is measured against any-angle paths that bend at centers, as its own paths do.
+    /// Those that bend at corners of obstacles can be shorter than Theorem 3 says: on the map `.@.` above
+    /// `...` every path over N(k) from (0, 0) to (2, 0) costs 4 under `never`, and that one 1 + √2. No bound
+    /// of this kind holds against it ([`lower_bound`](Self::lower_bound)).
     ///
     /// ```
     /// use mediant_grid::{CornerRule, DiagonalGap, Rules};
@@ -67,6 +71,8 @@ impl Guarantee {
             (Self::OptimalAnyAngle, _) => Some(1.0),
             (Self::Suboptimal | Self::Cheapest(_) | Self::AtMostCheapest(_), _)
             | (_, Rules::Center(CornerRule::Always)) => None,
+            // Over N(k) no path leads from center to center by corners.
+            (_, Rules::CenterGap(_)) => None,
             (Self::Optimal(k) | Self::AtMost(k), Rules::Corner(_)) => Some(bound_at_corners(k)),
             (Self::Optimal(k) | Self::AtMost(k), Rules::Center(CornerRule::One)) => Some(bound_at_centers(k)),
             (_, Rules::Center(CornerRule::Never)) => Some(BOUND_WITHOUT_CORNER_CUTTING),
@@ -124,15 +130,18 @@ impl Guarantee {
         }
     }
 
-    /// A lower bound of the cost of every path at any angle between two vertices, when a path with this
-    /// guarantee costs `cost` and the straight line between them measures `straight`: the larger of
-    /// `straight` and `cost` divided by the [bound](Self::bound). In cells, up to the rounding that the
-    /// guarantee allows. 0 on a cost surface, for which none is known.
+    /// A lower bound of the cost of every path at any angle between two vertices that bends at corners of
+    /// obstacles, when a path with this guarantee costs `cost` and the straight line between them measures
+    /// `straight`. It is `cost` where that is the optimum itself; at corners the larger of `straight` and
+    /// `cost` divided by the [bound](Self::bound); at centers `straight`, since no bound holds against such
+    /// paths there. In cells, up to the rounding that the guarantee allows. 0 on a cost surface, for which
+    /// none is known.
     #[must_use]
     pub fn lower_bound(self, rules: Rules, cost: f64, straight: f64) -> f64 {
         if self.is_of_costs() {
             return 0.0;
         }
-        self.bound(rules).map_or(straight, |bound| straight.max(cost / bound))
+        let bound = self.bound(rules).filter(|_| rules.gap().is_some() || self == Self::OptimalAnyAngle);
+        bound.map_or(straight, |bound| straight.max(cost / bound))
     }
 }

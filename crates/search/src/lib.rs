@@ -89,7 +89,7 @@ pub use observer::{Counters, NodeEvent, Observer};
 pub use path::{BrokenPath, JoinError, Path, SpacingError, Turn};
 pub use planner::{Planner, SearchStatus};
 pub use query::{
-    End, EndSpace, Ends, Limit, Limits, PathCosts, PointEnds, Query, QueryError, Search, Stopped,
+    CenterSpace, End, EndSpace, Ends, Limit, Limits, PathCosts, PointEnds, Query, QueryError, Search, Stopped,
 };
 pub use replanning::{DStarLite, Lengths, LpaStar, MoveCosts};
 pub use smoothing::{Smoothed, Smoothing, pull_taut, smooth};

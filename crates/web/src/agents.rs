@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::{
     answer,
-    arguments::{integer_32, point, positive, room},
+    arguments::{integer_32, positive, room, vertex},
     errors::{argument, raised},
     grid::Grid,
     keywords::{Keywords, MOTION, entries, unknown_key},
@@ -104,7 +104,7 @@ impl Space {
         #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "number")] surplus: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let (start, goal) = (point("start", start)?, point("goal", goal)?);
+        let (start, goal) = (vertex("start", start)?, vertex("goal", goal)?);
         let surplus = positive("surplus", surplus)?;
         self.check_room("the path", memory::SPACE + memory::PLANNER)?;
         let widest = self.inner.widest_path(start, goal, surplus).map_err(raised)?;

@@ -1,10 +1,10 @@
 //! The answer to a query, and values that go out.
 
-use js_sys::{Int32Array, Object, Reflect};
-use mediant::{Answer, Guarantee, Motion, Path, Rules, Status, Vertex};
+use js_sys::{Float64Array, Int32Array, Object, Reflect};
+use mediant::{Answer, Guarantee, Motion, Path, Point, Rules, Status, Vertex};
 use wasm_bindgen::{JsCast, prelude::*};
 
-use crate::types::{JsAnswer, JsMotion};
+use crate::types::{JsAnswer, JsMotion, JsWaypoints};
 
 /// An object with these keys; those without a value are left out.
 pub(crate) fn object_of<T: JsCast>(entries: impl IntoIterator<Item = (&'static str, Option<JsValue>)>) -> T {
@@ -18,10 +18,21 @@ pub(crate) fn object_of<T: JsCast>(entries: impl IntoIterator<Item = (&'static s
     object.unchecked_into()
 }
 
-/// The waypoints of a path, x, y, ….
-pub(crate) fn flat(path: &Path) -> Int32Array {
-    let flat: Vec<i32> = path.waypoints().iter().flat_map(|at| [at.x, at.y]).collect();
-    Int32Array::from(&flat[..])
+/// The waypoints of a path, x, y, …: a `Float64Array` if one of them is no vertex.
+pub(crate) fn flat(path: &Path) -> JsWaypoints {
+    points(path.points())
+}
+
+/// Points x, y, …, likewise.
+pub(crate) fn points(points: impl Iterator<Item = Point> + Clone) -> JsWaypoints {
+    let whole = points.clone().flat_map(|at| at.vertex().map_or([None; 2], |at| [Some(at.x), Some(at.y)]));
+    match whole.collect::<Option<Vec<i32>>>() {
+        Some(flat) => Int32Array::from(&flat[..]).unchecked_into(),
+        None => {
+            let flat: Vec<f64> = points.flat_map(|at| [at.x(), at.y()]).collect();
+            Float64Array::from(&flat[..]).unchecked_into()
+        }
+    }
 }
 
 /// A vertex as [x, y].
@@ -40,7 +51,7 @@ pub(crate) fn told(answer: &Answer, (guarantee, rules): (Guarantee, Rules)) -> J
     let object = Object::new().unchecked_into::<JsAnswer>();
     STATUSES.with(|statuses| object.set_status(&statuses[answer.status() as usize]));
     if let Some(path) = answer.path() {
-        object.set_path(flat(path));
+        object.set_path(&flat(path));
     }
     object.set_distance(answer.distance(guarantee));
     if let (Guarantee::Cheapest(_), Some(path)) = (guarantee, answer.path()) {
@@ -55,7 +66,7 @@ pub(crate) fn told(answer: &Answer, (guarantee, rules): (Guarantee, Rules)) -> J
         object.set_stopped_by(limit.name());
     }
     if let Some(best) = answer.best() {
-        object.set_best(flat(best));
+        object.set_best(&flat(best));
     }
     object
 }
@@ -65,7 +76,7 @@ pub(crate) fn motion(motion: Motion) -> JsMotion {
     let k = motion.k.finite().map_or_else(|| JsValue::from("any"), |k| k.get().into());
     let (corners, gap) = match motion.rules {
         Rules::Center(rule) => (Some(rule.name().into()), None),
-        Rules::Corner(gap) => (None, Some(gap.name().into())),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => (None, Some(gap.name().into())),
     };
     object_of([
         ("k", Some(k)),

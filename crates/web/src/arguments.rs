@@ -2,65 +2,65 @@
 
 use std::str::FromStr;
 
-use js_sys::{Array, Int32Array, Uint8Array, Uint8ClampedArray};
-use mediant::{ErrorCode, Vertex, errors::UnknownName};
+use js_sys::{Array, Float64Array, Int32Array, Uint8Array, Uint8ClampedArray};
+use mediant::{ErrorCode, Point, Vertex, errors::UnknownName};
 use wasm_bindgen::{JsCast, convert::TryFromJsValue, prelude::*};
 
 use crate::errors::{argument, coded, no_memory, raised_for, wrong_type};
 
 /// The form of a point, for errors.
-const POINT: &str = "a point [x, y] of two integers";
+const POINT: &str = "a point [x, y] of two numbers";
 /// The form of one or several points, for errors.
-const POINTS: &str = "a point [x, y], an array of points, or an Int32Array of x, y, …";
+const POINTS: &str = "a point [x, y], an array of points, or an Int32Array or Float64Array of x, y, …";
+/// The form of the points of a path, for errors.
+const FLAT: &str = "an Int32Array or Float64Array of x, y, …";
 
 /// One point, or several.
 pub(crate) enum Points {
-    One(Vertex),
-    Several(Vec<Vertex>),
+    One(Point),
+    Several(Vec<Point>),
 }
 
 impl Points {
     /// The points of an argument.
     pub(crate) fn read(name: &str, value: &JsValue) -> Result<Self, JsValue> {
         let Some(array) = value.dyn_ref::<Array>() else {
-            let Some(flat) = value.dyn_ref::<Int32Array>() else {
-                return Err(wrong_type(name, POINTS, value));
-            };
-            let several = flat_points(name, flat)?;
+            let several = flat_points(name, value)?.ok_or_else(|| wrong_type(name, POINTS, value))?;
             return Ok(if let [at] = several[..] { Self::One(at) } else { Self::Several(several) });
         };
         if array.length() == 2 {
             let first = item(array, 0)?;
             // By far the most frequent form.
             if first.as_f64().is_some() || !first.is_object() {
-                let (x, y) = (coordinate(name, &first)?, coordinate(name, &item(array, 1)?)?);
-                return Ok(Self::One(Vertex::new(x, y)));
+                return nearest(name, &first, &item(array, 1)?).map(Self::One);
             }
         }
         let mut several = Vec::new();
         for index in 0..array.length() {
             let value = item(array, index)?;
-            several.push(match (value.dyn_ref::<Array>(), value.dyn_ref::<Int32Array>()) {
-                (Some(at), _) if at.length() == 2 => pair(name, at)?,
-                (_, Some(at)) if at.length() == 2 => Vertex::new(at.get_index(0), at.get_index(1)),
-                _ => return Err(wrong_type(name, POINTS, &value)),
-            });
+            let at = one(name, &value)?;
+            several.push(at.ok_or_else(|| wrong_type(name, POINTS, &value))?);
         }
         Ok(Self::Several(several))
     }
 
-    pub(crate) fn into_vec(self) -> Vec<Vertex> {
+    pub(crate) fn into_vec(self) -> Vec<Point> {
         match self {
             Self::One(at) => vec![at],
             Self::Several(all) => all,
         }
     }
 
-    pub(crate) fn as_slice(&self) -> &[Vertex] {
+    pub(crate) fn as_slice(&self) -> &[Point] {
         match self {
             Self::One(at) => std::slice::from_ref(at),
             Self::Several(all) => all,
         }
+    }
+
+    /// The points, where they are vertices.
+    pub(crate) fn into_vertices(self, name: &str) -> Result<Vec<Vertex>, JsValue> {
+        self.into_vec().into_iter().map(|at| whole(name, at)).collect()
     }
 }
 
@@ -69,55 +69,69 @@ fn item(array: &Array, index: u32) -> Result<JsValue, JsValue> {
     js_sys::Reflect::get_u32(array, index)
 }
 
+/// The point of an array of two numbers; `None` for anything else.
+fn one(name: &str, value: &JsValue) -> Result<Option<Point>, JsValue> {
+    match value.dyn_ref::<Array>() {
+        Some(array) if array.length() == 2 => nearest(name, &item(array, 0)?, &item(array, 1)?).map(Some),
+        Some(_) => Ok(None),
+        None => Ok(flat_points(name, value)?.filter(|points| points.len() == 1).map(|points| points[0])),
+    }
+}
+
 /// The one point of an argument.
-pub(crate) fn point(name: &str, value: &JsValue) -> Result<Vertex, JsValue> {
-    if let Some(array) = value.dyn_ref::<Array>().filter(|array| array.length() == 2) {
-        return pair(name, array);
-    }
-    if let Some(flat) = value.dyn_ref::<Int32Array>().filter(|flat| flat.length() == 2) {
-        return Ok(Vertex::new(flat.get_index(0), flat.get_index(1)));
-    }
-    Err(wrong_type(name, POINT, value))
+pub(crate) fn point(name: &str, value: &JsValue) -> Result<Point, JsValue> {
+    one(name, value)?.ok_or_else(|| wrong_type(name, POINT, value))
+}
+
+/// The one vertex of an argument.
+pub(crate) fn vertex(name: &str, value: &JsValue) -> Result<Vertex, JsValue> {
+    whole(name, point(name, value)?)
+}
+
+/// The point as a vertex.
+fn whole(name: &str, at: Point) -> Result<Vertex, JsValue> {
+    let wrong = || argument(name, &format!("{at} lies between vertices: two whole numbers are expected"));
+    at.vertex().ok_or_else(wrong)
 }
 
 /// The points of a path.
-pub(crate) fn path_points(name: &str, value: &JsValue) -> Result<Vec<Vertex>, JsValue> {
-    match value.dyn_ref::<Int32Array>() {
-        Some(flat) => flat_points(name, flat),
-        None => Err(wrong_type(name, "an Int32Array of x, y, …", value)),
-    }
+pub(crate) fn path_points(name: &str, value: &JsValue) -> Result<Vec<Point>, JsValue> {
+    flat_points(name, value)?.ok_or_else(|| wrong_type(name, FLAT, value))
 }
 
-fn flat_points(name: &str, flat: &Int32Array) -> Result<Vec<Vertex>, JsValue> {
-    let numbers = flat.length() as usize;
-    if !numbers.is_multiple_of(2) {
-        return Err(argument(
-            name,
-            &format!("expected an even number of coordinates x, y, …, found {numbers}"),
-        ));
-    }
-    let mut flat_copy = room(numbers, 0, name)?;
+/// The points of a typed array x, y, …; `None` for anything else.
+fn flat_points(name: &str, value: &JsValue) -> Result<Option<Vec<Point>>, JsValue> {
+    let pairs = |numbers: u32| {
+        let even = || format!("expected an even number of coordinates x, y, …, found {numbers}");
+        if numbers.is_multiple_of(2) { Ok(numbers as usize) } else { Err(argument(name, &even())) }
+    };
     // A detached array has no numbers, and throws if it is copied.
-    if numbers > 0 {
-        flat.copy_to(&mut flat_copy);
+    if let Some(flat) = value.dyn_ref::<Int32Array>() {
+        let mut copy = room(pairs(flat.length())?, 0, name)?;
+        if !copy.is_empty() {
+            flat.copy_to(&mut copy);
+        }
+        return Ok(Some(copy.chunks_exact(2).map(|at| Vertex::new(at[0], at[1]).into()).collect()));
     }
-    Ok(flat_copy.chunks_exact(2).map(|at| Vertex::new(at[0], at[1])).collect())
+    let Some(flat) = value.dyn_ref::<Float64Array>() else { return Ok(None) };
+    let mut copy = room(pairs(flat.length())?, 0.0, name)?;
+    if !copy.is_empty() {
+        flat.copy_to(&mut copy);
+    }
+    copy.chunks_exact(2).map(|at| rounded(name, at[0], at[1])).collect::<Result<_, _>>().map(Some)
 }
 
-/// The point of an array of two.
-fn pair(name: &str, array: &Array) -> Result<Vertex, JsValue> {
-    Ok(Vertex::new(coordinate(name, &item(array, 0)?)?, coordinate(name, &item(array, 1)?)?))
+/// The point with these coordinates.
+fn nearest(name: &str, x: &JsValue, y: &JsValue) -> Result<Point, JsValue> {
+    let number = |value: &JsValue| {
+        let found = value.as_f64().filter(|found| found.is_finite());
+        found.ok_or_else(|| wrong_type(name, POINT, value))
+    };
+    rounded(name, number(x)?, number(y)?)
 }
 
-fn coordinate(name: &str, value: &JsValue) -> Result<i32, JsValue> {
-    let found = value.as_f64().ok_or_else(|| wrong_type(name, POINT, value))?;
-    if found.fract() != 0.0 || !found.is_finite() {
-        return Err(wrong_type(name, POINT, value));
-    }
-    if found < f64::from(i32::MIN) || found > f64::from(i32::MAX) {
-        return Err(far_outside(name));
-    }
-    Ok(found as i32)
+fn rounded(name: &str, x: f64, y: f64) -> Result<Point, JsValue> {
+    Point::nearest(x, y).ok_or_else(|| far_outside(name))
 }
 
 /// The error for an end whose numbers are larger than those of any map.

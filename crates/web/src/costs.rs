@@ -13,9 +13,9 @@ impl Space {
     /// A rest of a path has to be measured so, and a path after an edit of costs.
     pub fn cost(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     ) -> Result<Option<f64>, JsValue> {
-        Ok(self.inner.cost(&Path::new(path_points("path", path)?)))
+        Ok(self.inner.cost(&Path::through(path_points("path", path)?)))
     }
 
     /// This space of costs with other costs of some cells, as `Grid.editCosts`: an index is repaired for it

@@ -19,8 +19,8 @@ fn exceptions_of(given: &JsValue) -> Result<Exceptions, JsValue> {
     for (key, value) in entries("exceptions", given)? {
         match key.as_str() {
             "blocked" | "free" | "freeEnds" if value.is_undefined() => {}
-            "blocked" => blocked = Points::read(&key, &value)?.into_vec(),
-            "free" => free = Points::read(&key, &value)?.into_vec(),
+            "blocked" => blocked = Points::read(&key, &value)?.into_vertices(&key)?,
+            "free" => free = Points::read(&key, &value)?.into_vertices(&key)?,
             "freeEnds" => free_ends = flag(&key, &value)?,
             _ => return Err(unknown_key("exceptions", &key, "blocked, free, freeEnds")),
         }

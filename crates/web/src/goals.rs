@@ -1,15 +1,16 @@
 //! Goals that many starts ask for.
 
-use js_sys::{Float64Array, Int32Array};
+use js_sys::Float64Array;
 use mediant::Goals as Inner;
 use wasm_bindgen::prelude::*;
 
 use crate::{
-    answer::object_of,
+    answer::{object_of, points},
     arguments::{Points, object, point},
     errors::raised,
     index::Index,
     planner::Planner,
+    types::JsWaypoints,
 };
 
 /// Goals that are prepared for an index: `Index.goals` makes them, `Planner.distances` and `Planner.nearest`
@@ -25,13 +26,12 @@ impl Goals {
     /// The number of goals.
     #[wasm_bindgen(getter)]
     pub fn length(&self) -> usize {
-        self.inner.vertices().len()
+        self.inner.points().len()
     }
 
     /// The goals x, y, …, in the order in which they were given.
-    pub fn points(&self) -> Int32Array {
-        let flat: Vec<i32> = self.inner.vertices().iter().flat_map(|at| [at.x, at.y]).collect();
-        Int32Array::from(&flat[..])
+    pub fn points(&self) -> JsWaypoints {
+        points(self.inner.points().iter().copied())
     }
 
     /// A second handle to the same goals, for arguments of calls.

@@ -56,10 +56,10 @@ pub fn bound(
 /// @throws MediantError `number` for a spacing of 0 or less, `memory` if there is no room for the points.
 #[wasm_bindgen]
 pub fn spaced(
-    #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+    #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     #[wasm_bindgen(unchecked_param_type = "number")] spacing: &JsValue,
 ) -> Result<Float64Array, JsValue> {
-    let (path, spacing) = (Path::new(path_points("path", path)?), number("spacing", spacing)?);
+    let (path, spacing) = (Path::through(path_points("path", path)?), number("spacing", spacing)?);
     let points = path.spaced(spacing).map_err(|error| coded(ErrorCode::Number, &error.to_string()))?;
     // It saturates.
     let most = ((path.cost() / spacing) as u64).saturating_add(3);

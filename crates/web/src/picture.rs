@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use js_sys::Uint8Array;
-use mediant::{Field as Distances, Map, PlacementKind, Vertex};
+use mediant::{Field as Distances, Map, PlacementKind, Point, Vertex};
 use mediant_formats::Picture as Drawn;
 use wasm_bindgen::prelude::*;
 
@@ -31,9 +31,9 @@ pub struct Picture {
     field: Option<Rc<Distances>>,
     expanded: Vec<Vertex>,
     open: Vec<Vertex>,
-    paths: Vec<(String, Vec<Vertex>)>,
-    starts: Vec<Vertex>,
-    goals: Vec<Vertex>,
+    paths: Vec<(String, Vec<Point>)>,
+    starts: Vec<Point>,
+    goals: Vec<Point>,
     radius: f64,
     caption: String,
     largest_side: Option<u32>,
@@ -67,7 +67,7 @@ impl Picture {
             drawn = drawn.largest_side(side);
         }
         for (name, points) in &self.paths {
-            drawn = drawn.path(name.as_str(), points.iter().map(|at| (f64::from(at.x), f64::from(at.y))));
+            drawn = drawn.path(name.as_str(), points.iter().map(|at| (at.x(), at.y())));
         }
         Ok(drawn)
     }
@@ -136,7 +136,7 @@ impl Picture {
     pub fn path(
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "string")] name: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] points: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] points: &JsValue,
     ) -> Result<(), JsValue> {
         let name = text("name", "a text", name)?;
         self.paths.push((name, path_points("points", points)?));

@@ -5,8 +5,7 @@ use std::{
     rc::Rc,
 };
 
-use js_sys::Int32Array;
-use mediant::{Answer, Ends, Planner as Inner, Space, errors::QueryError};
+use mediant::{Answer, Planner as Inner, PointEnds, Space, errors::QueryError};
 use wasm_bindgen::prelude::*;
 
 use crate::{
@@ -15,7 +14,7 @@ use crate::{
     errors::{argument, raised},
     keywords::{Keywords, WISHES},
     trace::Trace,
-    types::JsAnswer,
+    types::{JsAnswer, JsWaypoints},
 };
 
 /// Answers queries on an index, one after another, at once or in steps. The same query always gives the same
@@ -149,7 +148,7 @@ impl Planner {
         #[wasm_bindgen(unchecked_param_type = "Point")] start: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
     ) -> Result<f64, JsValue> {
-        let ends = Ends::new(point("start", start)?, point("goal", goal)?);
+        let ends = PointEnds::new(point("start", start)?, point("goal", goal)?);
         Ok(self.idle()?.inner.distance(ends).map_err(raised)?.unwrap_or(f64::INFINITY))
     }
 
@@ -202,7 +201,7 @@ impl Planner {
 
     /// The best path so far of the search that was begun: to a goal, if one was found, else to the vertex
     /// nearest to a goal among those that it expanded. Undefined without a search.
-    pub fn best(&self) -> Result<Option<Int32Array>, JsValue> {
+    pub fn best(&self) -> Result<Option<JsWaypoints>, JsValue> {
         Ok(self.state()?.inner.best().as_ref().map(flat))
     }
 
@@ -212,7 +211,7 @@ impl Planner {
     pub fn path_to(
         &self,
         #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
-    ) -> Result<Option<Int32Array>, JsValue> {
+    ) -> Result<Option<JsWaypoints>, JsValue> {
         let at = point("at", at)?;
         Ok(self.state()?.inner.path_to(at).as_ref().map(flat))
     }

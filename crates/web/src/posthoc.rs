@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use mediant::{
-    Ends,
+    PointEnds,
     search::{Observer, Tracer},
 };
 use wasm_bindgen::prelude::*;
@@ -46,11 +46,12 @@ impl Trace {
         #[wasm_bindgen(unchecked_param_type = "Point")] goal: &JsValue,
     ) -> Result<String, JsValue> {
         let searched = object::<Planner>("planner", "Planner", planner)?.searched()?;
-        let query = Ends::new(point("start", start)?, point("goal", goal)?);
+        let query = PointEnds::new(point("start", start)?, point("goal", goal)?);
         self.with_all(&searched.space, |events| {
             let placement = searched.space.motion().rules.placement();
             let write = || -> io::Result<Text> {
                 let mut tracer = Tracer::new(Text::default(), searched.space.map().grid(), placement)?;
+                tracer = tracer.in_space(&searched.space);
                 tracer.begin(query, searched.answer.as_ref());
                 for &(kind, node) in events {
                     match kind {

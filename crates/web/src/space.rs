@@ -1,7 +1,7 @@
 //! Spaces: maps with rules of motion.
 
 use js_sys::Int32Array;
-use mediant::{Motion, Path, Space as Inner, Vertex, files::WorldFrame};
+use mediant::{Motion, Path, PlacementKind, Point, Rules, Space as Inner, files::WorldFrame};
 use wasm_bindgen::prelude::*;
 
 use crate::{
@@ -23,12 +23,15 @@ pub struct Space {
 
 /// The points that `of` finds along a path, as x, y, ….
 fn along(path: &JsValue, of: impl FnOnce(&Path) -> Vec<(i32, i32)>) -> Result<Int32Array, JsValue> {
-    let path = Path::new(path_points("path", path)?);
+    let path = Path::through(path_points("path", path)?);
     // Waypoints may be anywhere. A step along an axis touches two cells at most, and a list may be half
     // empty.
-    let steps =
-        |ends: &[Vertex]| u64::from(ends[0].x.abs_diff(ends[1].x)) + u64::from(ends[0].y.abs_diff(ends[1].y));
-    let most: u64 = path.waypoints().windows(2).map(|ends| 2 * steps(ends) + 4).sum();
+    let steps = |(from, to): (Point, Point)| {
+        let ((x, y), (to_x, to_y)) = (from.parts(), to.parts());
+        (x.abs_diff(to_x) + y.abs_diff(to_y)) / Point::PARTS as u64
+    };
+    let segments = path.points().zip(path.points().skip(1));
+    let most: u64 = segments.map(|ends| 2 * steps(ends) + 8).sum();
     memory::check("the points along the path", most, 32)?;
     let flat: Vec<i32> = of(&path).into_iter().flat_map(|(x, y)| [x, y]).collect();
     Ok(Int32Array::from(&flat[..]))
@@ -54,9 +57,10 @@ impl Grid {
     ///
     /// ```js
     /// const space = grid.space({ k: "any" }); // any direction, between the corners of cells
+    /// const centers = grid.space({ k: "any", placement: "center" }); // the same between their centers
     /// ```
     ///
-    /// @throws MediantError `motion` where no engine searches: k above 12, and centers at any angle; k above
+    /// @throws MediantError `motion` where no engine searches: k above 12; k above
     /// 8 where cells have costs.
     pub fn space(
         &self,
@@ -116,9 +120,9 @@ impl Space {
     /// edit.
     pub fn holds(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     ) -> Result<bool, JsValue> {
-        Ok(self.inner.check(&Path::new(path_points("path", path)?)).is_ok())
+        Ok(self.inner.check(&Path::through(path_points("path", path)?)).is_ok())
     }
 
     /// Throws what is wrong with a path that does not hold: the segment, and the first blocked cell on it.
@@ -126,17 +130,18 @@ impl Space {
     /// @throws MediantError `broken-path`.
     pub fn check(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     ) -> Result<(), JsValue> {
-        self.inner.check(&Path::new(path_points("path", path)?)).map_err(|error| broken(&error))
+        self.inner.check(&Path::through(path_points("path", path)?)).map_err(|error| broken(&error))
     }
 
-    /// The walk along a path, x, y, …: every vertex on it, where its waypoints are the turns alone.
+    /// The walk along a path, x, y, …: every vertex on it, where its waypoints are the turns alone. A path with
+    /// points between vertices has none.
     ///
     /// @throws MediantError `memory` for waypoints that are too far apart.
     pub fn vertices(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     ) -> Result<Int32Array, JsValue> {
         along(path, |path| path.vertices().map(|at| (at.x, at.y)).collect())
     }
@@ -148,10 +153,13 @@ impl Space {
     #[wasm_bindgen(js_name = touchedCells)]
     pub fn touched_cells(
         &self,
-        #[wasm_bindgen(unchecked_param_type = "Int32Array")] path: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "Waypoints")] path: &JsValue,
     ) -> Result<Int32Array, JsValue> {
-        let placement = self.inner.motion().rules.placement();
-        along(path, |path| path.touched_cells(placement).collect())
+        let rules = self.inner.motion().rules;
+        along(path, |path| match rules {
+            Rules::CenterGap(_) => path.at_corners().touched_cells(PlacementKind::Corner).collect(),
+            _ => path.touched_cells(rules.placement()).collect(),
+        })
     }
 
     /// The engine that we would take for many paths, and why, in a sentence.

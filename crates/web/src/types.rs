@@ -1,17 +1,22 @@
 //! The types of plain objects, for TypeScript. The reference in the first line is for the `[Symbol.dispose]`
 //! that wasm-bindgen declares, which older settings of TypeScript do not know.
 
-use js_sys::Int32Array;
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = r#"/// <reference lib="esnext.disposable" />
 
-/** A vertex: x to the right, y down, whole numbers from 0. */
+/**
+ * A vertex: x to the right, y down, whole numbers from 0. For a path at any angle also any point between
+ * vertices, rounded to multiples of 1/1024.
+ */
 export type Point = readonly [x: number, y: number];
 
-/** One vertex or several: a point, an array of points, or an `Int32Array` of x, y, …. */
-export type Points = Point | readonly Point[] | Int32Array;
+/** One point or several: a point, an array of points, or an array of x, y, …. */
+export type Points = Point | readonly Point[] | Waypoints;
+
+/** The waypoints x, y, … of a path: in a `Float64Array` if one of them lies between vertices. */
+export type Waypoints = Int32Array | Float64Array;
 
 // described: calls
 /** The motion of an agent. */
@@ -206,7 +211,7 @@ export interface Answer {
    */
   readonly status: Status;
   /** The waypoints x, y, … of a found or nearest answer. */
-  readonly path?: Int32Array;
+  readonly path?: Waypoints;
   /**
    * Its length in cells, as `Planner.distance` measures it; where cells have costs its cost. `Infinity` if
    * unreachable, `NaN` if stopped.
@@ -224,20 +229,22 @@ export interface Answer {
    */
   readonly lowerBound: number;
   /**
-   * The certificate of `path`, in cells: no path at any angle between its two ends under the same rules is
-   * shorter. It is the length of the path divided by `Index.bound`, or the straight line if that is longer.
+   * The certificate of `path`, in cells: no path at any angle between its two ends is shorter, though it
+   * bends at corners of obstacles. At corners it is the length of the path divided by `Index.bound`, or the
+   * straight line if that is longer; between centers the shortest path at any angle, if that was asked for,
+   * or the straight line.
    */
   readonly anyAngleLowerBound?: number;
   /** The limit that stopped the search. */
   readonly stoppedBy?: Limit;
   /** Of a stopped answer the best so far: a path to a goal, or to the vertex nearest to one. */
-  readonly best?: Int32Array;
+  readonly best?: Waypoints;
 }
 
 /** The result of `Space.widestPath`. */
 export interface WidestPath {
   /** The waypoints x, y, …. */
-  readonly path: Int32Array;
+  readonly path: Waypoints;
   /** Its length in cells. */
   readonly distance: number;
   /** The radius in cells of the disc that keeps its distance to all obstacles along it. */
@@ -293,7 +300,7 @@ extern "C" {
     #[wasm_bindgen(method, setter)]
     pub(crate) fn set_status(this: &JsAnswer, status: &JsValue);
     #[wasm_bindgen(method, setter)]
-    pub(crate) fn set_path(this: &JsAnswer, path: Int32Array);
+    pub(crate) fn set_path(this: &JsAnswer, path: &JsValue);
     #[wasm_bindgen(method, setter)]
     pub(crate) fn set_distance(this: &JsAnswer, distance: f64);
     #[wasm_bindgen(method, setter)]
@@ -307,8 +314,11 @@ extern "C" {
     #[wasm_bindgen(method, setter, js_name = stoppedBy)]
     pub(crate) fn set_stopped_by(this: &JsAnswer, limit: &str);
     #[wasm_bindgen(method, setter)]
-    pub(crate) fn set_best(this: &JsAnswer, best: Int32Array);
+    pub(crate) fn set_best(this: &JsAnswer, best: &JsValue);
 
+    /// The waypoints of a path.
+    #[wasm_bindgen(typescript_type = "Waypoints")]
+    pub type JsWaypoints;
     /// Motion with all that it has.
     #[wasm_bindgen(typescript_type = "WholeMotion")]
     pub type JsMotion;

@@ -90,6 +90,19 @@ impl World {
         Ok(at.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
+    /// The point of the map at a place of the world, for a path at any angle: rounded to multiples of 1/1024 of
+    /// a cell; undefined outside the map.
+    #[wasm_bindgen(js_name = placeAt, unchecked_return_type = "Point | undefined")]
+    pub fn place_at(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "number")] x: &JsValue,
+        #[wasm_bindgen(unchecked_param_type = "number")] y: &JsValue,
+        #[wasm_bindgen(unchecked_optional_param_type = "\"center\" | \"corner\"")] placement: &JsValue,
+    ) -> Result<JsValue, JsValue> {
+        let at = self.frame.place_at(kind(placement)?, number("x", x)?, number("y", y)?);
+        Ok(at.map_or(JsValue::UNDEFINED, |at| js_sys::Array::of2(&at.x().into(), &at.y().into()).into()))
+    }
+
     /// The places of vertices in the world, such as those of a path: x, y, … in meters.
     #[wasm_bindgen(js_name = pointOf)]
     pub fn point_of(

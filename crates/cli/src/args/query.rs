@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
-use mediant::{Ends, Exceptions, PlacementKind, Query, Vertex, call::Wishes};
+use mediant::{Exceptions, Motion, PlacementKind, Point, PointEnds, Query, Vertex, call::Wishes};
 
 use super::value::{Place, parse_place};
 use crate::{
@@ -16,21 +16,22 @@ use crate::{
 /// The ends of queries, their wishes, and the cells that count otherwise for them.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct QueryArgs {
-    /// The start of a single query. Of several (repeat it), the one with the shortest path is taken
+    /// The start of a single query: a vertex, at any angle any point, such as 2.03,0.5. Of several (repeat it),
+    /// the one with the shortest path is taken
     #[arg(id = "from", long = "from", value_name = "X,Y", requires = "aim")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     from_places: Vec<Place>,
-    /// The goal of a single query. Of several (repeat it), the one with the shortest path is taken
+    /// The goal of a single query, likewise. Of several (repeat it), the one with the shortest path is taken
     #[arg(id = "to", long = "to", value_name = "X,Y", requires = "from")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     to_places: Vec<Place>,
-    /// The vertices at the starts, once the map is known.
+    /// The ends of paths at the starts, once the map is known.
     #[arg(skip)]
-    pub(crate) from: Vec<Vertex>,
+    pub(crate) from: Vec<Point>,
     #[arg(skip)]
-    pub(crate) to: Vec<Vertex>,
-    /// With `--world`, how far the starts and the goals were moved to the nearest vertices, in meters, of
-    /// several the furthest.
+    pub(crate) to: Vec<Point>,
+    /// With `--world`, how far the starts and the goals were moved to the nearest vertices, at any angle to
+    /// the nearest points, in meters, of several the furthest.
     #[arg(skip)]
     pub(crate) moved: Option<[f64; 2]>,
     /// Measure the path of each query without making it: with hub labels this takes less time
@@ -58,19 +59,15 @@ pub(crate) struct QueryArgs {
 }
 
 impl QueryArgs {
-    /// Finds the vertices at the places that were named, and measures lengths in cells.
-    pub(crate) fn on(
-        &self,
-        wishes: &Wishes,
-        map: &NamedMap,
-        placement: PlacementKind,
-    ) -> Result<Self, Failure> {
-        let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
-            places.iter().map(|&place| map.vertex(placement, place)).collect()
+    /// Finds the ends of paths at the places that were named, and measures lengths in cells.
+    pub(crate) fn on(&self, wishes: &Wishes, map: &NamedMap, motion: Motion) -> Result<Self, Failure> {
+        let placement = motion.rules.placement();
+        let ends = |places: &[Place]| -> Result<Vec<Point>, Failure> {
+            places.iter().map(|&place| map.end(motion, place)).collect()
         };
         let mut asked = self.clone();
         asked.wishes = wishes.clone();
-        (asked.from, asked.to) = (vertices(&self.from_places)?, vertices(&self.to_places)?);
+        (asked.from, asked.to) = (ends(&self.from_places)?, ends(&self.to_places)?);
         let cells = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
             places.iter().map(|&place| map.vertex(PlacementKind::Center, place)).collect()
         };
@@ -89,7 +86,7 @@ impl QueryArgs {
     }
 
     /// The query for the path of a query. Its deadline runs from now on.
-    pub(crate) fn between(&self, ends: Ends) -> Query {
+    pub(crate) fn between(&self, ends: PointEnds) -> Query {
         let mut limits = self.wishes.limits();
         if let Some(millis) = self.wishes.timeout {
             let begin = Instant::now();
@@ -130,7 +127,7 @@ impl QueryArgs {
     /// The wishes in words, without the coordinates.
     pub(crate) fn in_words(&self) -> Vec<String> {
         let wishes = &self.wishes;
-        let several = |ends: &[Vertex], name| (ends.len() > 1).then(|| format!("{} {name}", ends.len()));
+        let several = |ends: &[Point], name| (ends.len() > 1).then(|| format!("{} {name}", ends.len()));
         let several = match (several(&self.from, "starts"), several(&self.to, "goals")) {
             (Some(starts), Some(goals)) => Some(format!("from any of {starts} to any of {goals}")),
             (Some(starts), None) => Some(format!("from any of {starts}")),
@@ -177,7 +174,7 @@ mod tests {
         match Cli::try_parse_from(words).map(|cli| cli.command) {
             Ok(Command::Run(run)) => {
                 let map = NamedMap::load_ground(&run.map, ReadingArgs::default()).expect("a bundled map");
-                run.query.on(run.flags.0.wishes(), &map, PlacementKind::Center).expect("vertices")
+                run.query.on(run.flags.0.wishes(), &map, Motion::default()).expect("vertices")
             }
             other => panic!("{other:?}"),
         }
@@ -185,17 +182,17 @@ mod tests {
 
     #[test]
     fn a_query_without_wishes_stays_a_query() {
-        let ends = Ends::new((1, 2), (3, 4));
+        let ends = PointEnds::new((1, 2), (3, 4));
         for options in ["", "--from 5,6 --to 7,8", "--every 2"] {
             let wishes = wishes(options);
-            assert_eq!(wishes.between(ends).as_ends(), Some(ends), "{options}");
+            assert_eq!(wishes.between(ends).as_points(), Some(ends), "{options}");
             assert_eq!(wishes.in_words(), [""; 0], "{options}");
         }
         for options in
             ["--tolerance 1", "--nearest", "--snap", "--max-cost 1", "--max-expansions 0", "--timeout 9"]
         {
             let wishes = wishes(options);
-            assert_eq!(wishes.between(ends).as_ends(), None, "{options}");
+            assert_eq!(wishes.between(ends).as_points(), None, "{options}");
             assert_eq!(wishes.in_words().len(), 1, "{options}");
         }
     }
@@ -203,7 +200,7 @@ mod tests {
     #[test]
     fn several_ends_are_in_the_order_of_the_arguments() {
         let wishes = wishes("--from 5,6 --from 1,1 --to 7,8 --to 0,0 --to 9,9");
-        let query = wishes.between(Ends::new((5, 6), (7, 8)));
+        let query = wishes.between(PointEnds::new((5, 6), (7, 8)));
         let at = |x, y| Vertex::new(x, y);
         assert_eq!(query.starts(), [at(5, 6), at(1, 1)]);
         assert_eq!(query.goals(), [at(7, 8), at(0, 0), at(9, 9)]);
@@ -213,7 +210,7 @@ mod tests {
     #[test]
     fn a_deadline_that_no_clock_reaches_is_none() {
         let wishes = wishes("--timeout 1e300 --tolerance 1");
-        assert!(wishes.between(Ends::new((0, 0), (1, 1))).as_ends().is_none());
+        assert!(wishes.between(PointEnds::new((0, 0), (1, 1))).as_points().is_none());
         assert_eq!(wishes.in_words()[0], "within 1 cell of the goal");
     }
 }

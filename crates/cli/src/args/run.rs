@@ -6,7 +6,7 @@ use std::{
 };
 
 use clap::{ArgGroup, Args, ValueEnum};
-use mediant::{Engine, K, Motion, Rules, Setup};
+use mediant::{CornerRule, DiagonalGap, Engine, K, Motion, Rules, Setup};
 
 use super::{
     costs::{CostsArgs, WalkingArgs},
@@ -103,8 +103,8 @@ Times are of the query alone, on a warm planner: each query is first solved once
 counts expanded and generated nodes and heap percolations; the timed runs count nothing.
 
 For each path found the report gives a certificate: how much longer than the shortest any-angle path between its ends \
-it is at most, by the engine's guarantee and by the straight line. With --reference it also gives how much \
-longer it is.
+it is at most, by the engine's guarantee and by the straight line, between centers by the straight line alone. With \
+--reference it also gives how much longer it is.
 
 --tolerance, --nearest, --snap and the limits hold for each query. What is near is measured by the length of \
 a path on an empty map, for --tolerance by the straight line. A search that a limit stops gives the best \
@@ -185,14 +185,19 @@ impl RunArgs {
         }
     }
 
-    /// The setup of `--reference`, under the same rules of motion; `None` without it.
+    /// The setup of `--reference`, under the same rules of motion, between centers by corners of obstacles;
+    /// `None` without it.
     pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
         let Some(engine) = self.reference else { return Ok(None) };
+        // What is connected between centers at any angle is what the moves connect.
+        let rules = match rules {
+            Rules::Center(CornerRule::Always) => Rules::CenterGap(DiagonalGap::Open),
+            Rules::Center(_) => Rules::CenterGap(DiagonalGap::Closed),
+            rules => rules,
+        };
         let setup = Setup::new(engine, Motion::new(K::Any, rules));
-        match setup.check() {
-            Ok(()) => Ok(Some(setup)),
-            Err(_) => Err(Failure::NoReference { engine, placement: rules.placement() }),
-        }
+        setup.check().map_err(mediant::Error::from)?;
+        Ok(Some(setup))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant::{K, Path, Point, Space, Vertex, errors::BrokenPath};
+use mediant::{K, Path, Point, Space, errors::BrokenPath};
 
 /// Costs that differ less, as a share of one of them, are the same.
 const NEAR: f64 = 1e-9;
@@ -13,7 +13,7 @@ pub(crate) enum Fault {
     /// It does not hold on the map.
     Broken(BrokenPath),
     /// A segment is not made of moves of N(k).
-    Move { index: usize, from: Vertex, to: Vertex, k: K },
+    Move { index: usize, from: Point, to: Point, k: K },
     /// It costs another amount than its file says.
     Cost { said: f64, found: f64 },
 }
@@ -27,9 +27,9 @@ impl Fault {
         if path.is_over(over) {
             return None;
         }
-        let segments = path.waypoints().windows(2).zip(0..);
-        let mut wrong = segments.filter(|(ends, _)| !Path::new(ends.to_vec()).is_over(over));
-        wrong.next().map(|(ends, index)| Self::Move { index, from: ends[0], to: ends[1], k: over })
+        let mut segments = path.points().zip(path.points().skip(1)).zip(0..);
+        let wrong = segments.find(|&((from, to), _)| !Path::through([from, to]).is_over(over));
+        wrong.map(|((from, to), index)| Self::Move { index, from, to, k: over })
     }
 
     /// The fault of a cost in a file.
@@ -43,7 +43,7 @@ impl Fault {
     pub(crate) fn segment(&self) -> Option<(usize, Point, Point)> {
         match *self {
             Self::Broken(BrokenPath::Segment { index, from, to, .. }) => Some((index, from, to)),
-            Self::Move { index, from, to, .. } => Some((index, from.into(), to.into())),
+            Self::Move { index, from, to, .. } => Some((index, from, to)),
             Self::Broken(_) | Self::Cost { .. } => None,
         }
     }

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use mediant::{K, Setup, Vertex};
+use mediant::{K, Point, Setup};
 use mediant_formats::{MAX_FILE_BYTES, ReadError};
 use serde::{Deserialize, de::IgnoredAny};
 use serde_json::Value;
@@ -42,8 +42,8 @@ pub(crate) struct Listed {
 /// The waypoints of a path.
 #[derive(Debug)]
 pub(crate) enum Waypoints {
-    /// Vertices.
-    Vertices(Vec<Vertex>),
+    /// Points.
+    Points(Vec<Point>),
     /// Places as on the command line, in the world if the arguments are in meters; each with its line.
     Places(Vec<(usize, Place)>),
 }
@@ -69,7 +69,7 @@ enum Line {
     Query {
         index: usize,
         #[serde(default)]
-        path: Vec<(i32, i32)>,
+        path: Vec<Point>,
         #[serde(default)]
         cost: Option<f64>,
     },
@@ -96,7 +96,11 @@ impl RunLine {
     /// The setup in the line; the error is in words.
     fn setup(&self) -> Result<RunSetup, String> {
         let k = self.k.as_str().map_or_else(|| self.k.to_string(), str::to_owned);
-        let rule = if self.placement == "corner" { &self.gap } else { &self.corners };
+        let rule = match (self.placement.as_str(), k.as_str()) {
+            ("corner", _) => self.gap.clone(),
+            (_, "any") => format!("center-{}", self.gap),
+            _ => self.corners.clone(),
+        };
         let setup = format!("{}:{k}:{rule}", self.engine).parse::<Setup>();
         let setup = setup.map_err(|error| format!("the run: {error}"))?;
         let over = if self.smooth { K::Any } else { setup.paths() };
@@ -173,8 +177,7 @@ fn jsonl(bytes: &[u8], entries: &mut Vec<Entry>) -> Result<(), Wrong> {
             }
             Line::Edit(edit) => entries.push(Entry::Edit(number, edit.cells().map_err(wrong)?)),
             Line::Query { index, path, cost } if !path.is_empty() => {
-                let waypoints = path.into_iter().map(Vertex::from).collect();
-                let waypoints = Waypoints::Vertices(waypoints);
+                let waypoints = Waypoints::Points(path);
                 let cost = cost.filter(|_| said.is_some_and(|said| said.has_costs));
                 entries.push(Entry::Path(Listed { index, waypoints, cost, said }));
             }
@@ -228,6 +231,8 @@ fn place(x: f64, y: f64) -> Place {
 
 #[cfg(test)]
 mod tests {
+    use mediant::Vertex;
+
     use super::*;
 
     fn places(text: &str) -> Vec<Place> {

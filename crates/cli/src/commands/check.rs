@@ -2,7 +2,7 @@
 
 use std::{io, io::Write, sync::Arc};
 
-use mediant::{K, Motion, Path, PlacementKind, Point, Space};
+use mediant::{CornerRule, K, Motion, Path, Point, Rules as MotionRules, Space};
 use mediant_formats::{Ground, PlacedPatch};
 use serde::Serialize;
 
@@ -86,7 +86,11 @@ impl Rules {
         // No engine searches others. For sight, and for what a path costs, every k is as good.
         let is_searched = match k {
             K::Finite(k) => !map.has_costs() || k.get() <= MAX_K_ON_COSTS,
-            K::Any => rules.placement() == PlacementKind::Corner && !map.has_costs(),
+            K::Any => rules.gap().is_some() && !map.has_costs(),
+        };
+        let rules = match rules {
+            MotionRules::CenterGap(_) if !is_searched => CornerRule::default().into(),
+            rules => rules,
         };
         let k = if is_searched { k } else { K::N8 };
         Ok(map.space(Motion::new(k, rules))?)
@@ -145,7 +149,7 @@ impl<'a> Checker<'a> {
     /// The first fault of a path in a file, and its cost where paths have costs.
     fn fault(&mut self, file: &str, path: &Listed) -> Result<(Option<Fault>, Option<f64>), Failure> {
         let rules = Rules::new(self.args, path.said)?;
-        let waypoints = vertices(file, path, rules, &self.map)?;
+        let waypoints = points(file, path, rules, &self.map)?;
         let start = waypoints.first().filter(|_| by_ground(path));
         let ground = start.map(|&start| self.map.ground_at(rules.motion.rules.placement(), start));
         let space = match self.ready.take() {
@@ -155,7 +159,7 @@ impl<'a> Checker<'a> {
                 rules.space(self.args, on_ground.unwrap_or_else(|| self.map.clone()))?
             }
         };
-        let way = Path::new(waypoints);
+        let way = Path::through(waypoints);
         let cost = space.cost(&way).filter(|_| self.map.has_costs());
         let fault = Fault::of(&way, &space, rules.over).or_else(|| Fault::of_cost(path.cost, cost));
         self.ready = Some(((rules, ground), space));
@@ -218,24 +222,22 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
 }
 
 /// The waypoints of a path.
-fn vertices(
-    file: &str,
-    path: &Listed,
-    rules: Rules,
-    map: &NamedMap,
-) -> Result<Vec<mediant::Vertex>, Failure> {
+fn points(file: &str, path: &Listed, rules: Rules, map: &NamedMap) -> Result<Vec<Point>, Failure> {
     match &path.waypoints {
-        Waypoints::Vertices(vertices) => Ok(vertices.clone()),
+        Waypoints::Points(points) => Ok(points.clone()),
         Waypoints::Places(places) => {
-            let placement = rules.motion.rules.placement();
-            let vertex = |&(line, place): &(usize, _)| {
-                map.vertex(placement, place).map_err(|error| Failure::PathFile {
+            // A list of points is a path at any angle, whatever rules were named.
+            let rules = rules.motion.rules;
+            let motion =
+                if rules.gap().is_some() { Motion::new(K::Any, rules) } else { Motion::new(3, rules) };
+            let point = |&(line, place): &(usize, _)| {
+                map.end(motion, place).map_err(|error| Failure::PathFile {
                     path: file.into(),
                     line,
                     problem: error.to_string(),
                 })
             };
-            places.iter().map(vertex).collect()
+            places.iter().map(point).collect()
         }
     }
 }

@@ -108,7 +108,7 @@ fn picture(map: &NamedMap, query: Ends, rows: &[Row], screen: &mut Screen) -> io
             canvas.path(&row.waypoints, stroke, ink);
         }
     }
-    canvas.ends(&[query.start], &[query.goal]);
+    canvas.ends(&[query.start.into()], &[query.goal.into()]);
     canvas.write(screen)?;
     let ground = map.theme.ground();
     let mut legend = String::new();

@@ -28,8 +28,7 @@ use crate::{
 /// Runs the command.
 pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure> {
     let asked = args.asked()?;
-    let (rules, placement) = (asked.motion.rules, asked.motion.rules.placement());
-    let reference = args.reference(rules)?;
+    let reference = args.reference(asked.motion.rules)?;
     match &args.draw {
         Some(None) if args.format == Format::Jsonl => return Err(Failure::DrawJsonl),
         Some(Some(file)) => check_name(file)?,
@@ -42,11 +41,12 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     let inputs = args.costs.inputs().chain(args.walking.inputs());
     check_outputs(&args.map.map, inputs, &args.outputs())?;
-    let query = args.query.on(asked.call.wishes(), &map, placement)?;
+    let query = args.query.on(asked.call.wishes(), &map, asked.motion)?;
     if let (Some(path), Some(from)) = (&args.distances, query.from.first()) {
-        return distances::write(&asked, &map, *from, path, screen);
+        let no_vertex = Failure::NoVertex { x: from.x(), y: from.y() };
+        return distances::write(&asked, &map, from.vertex().ok_or(no_vertex)?, path, screen);
     }
-    let queries = Queries::load(args, &query, &map, placement)?;
+    let queries = Queries::load(args, &query, &map, asked.motion)?;
     check_number(args, &queries)?;
     let mut searchers = Searchers::new(args, &asked, reference, &map, &queries)?;
     let trace = args.trace.as_deref().map(TraceFile);

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 
 use anstyle::{Reset, RgbColor};
-use mediant::{PlacementKind, Vertex};
+use mediant::{PlacementKind, Point};
 use mediant_formats::MapFile;
 
 use super::{
@@ -66,10 +66,10 @@ impl Canvas {
     }
 
     /// Draws a line through the waypoints.
-    pub(crate) fn path(&mut self, waypoints: &[Vertex], stroke: Stroke, ink: RgbColor) {
+    pub(crate) fn path(&mut self, waypoints: &[impl Into<Point> + Copy], stroke: Stroke, ink: RgbColor) {
         let mut i = 0;
         for ends in waypoints.windows(2) {
-            let (from, to) = (self.position(ends[0]), self.position(ends[1]));
+            let (from, to) = (self.position(ends[0].into()), self.position(ends[1].into()));
             for (x, y) in steps(from, to) {
                 if let Some((column, row)) = self.nearest_dot(x, y).filter(|_| stroke.inks(i)) {
                     self.sheet.dot(column, row, ink);
@@ -80,24 +80,24 @@ impl Canvas {
     }
 
     /// Marks the starts and the goals of a query.
-    pub(crate) fn ends(&mut self, starts: &[Vertex], goals: &[Vertex]) {
+    pub(crate) fn ends(&mut self, starts: &[Point], goals: &[Point]) {
         starts.iter().for_each(|&at| self.mark(at, START_MARK, INKS.start));
         goals.iter().for_each(|&at| self.mark(at, GOAL_MARK, INKS.goal));
     }
 
     /// Puts a character at a vertex.
-    fn mark(&mut self, at: Vertex, mark: char, ink: RgbColor) {
+    fn mark(&mut self, at: Point, mark: char, ink: RgbColor) {
         let (x, y) = self.position(at);
         if let Some((column, row)) = self.nearest_dot(x, y) {
             self.sheet.mark(column, row, mark, ink);
         }
     }
 
-    /// The position of a vertex, in dots.
-    fn position(&self, at: Vertex) -> (f64, f64) {
+    /// The position of a point, in dots.
+    fn position(&self, at: Point) -> (f64, f64) {
         let offset = if self.placement == PlacementKind::Center { 0.5 } else { 0.0 };
-        let dots = |cells: i32| (f64::from(cells) + offset) * self.dots_per_cell;
-        (dots(at.x), dots(at.y))
+        let dots = |cells: f64| (cells + offset) * self.dots_per_cell;
+        (dots(at.x()), dots(at.y()))
     }
 
     /// The dot at a position. A position on a grid line is between two dots: there it is the one on free

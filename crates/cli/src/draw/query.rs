@@ -6,7 +6,7 @@ use std::{
 };
 
 use mediant::{
-    Planner, Point, Query, Setup, Vertex,
+    PlacementKind, Planner, Point, Query, Rules, Setup, Vertex,
     search::{NodeEvent, Observer},
 };
 use mediant_formats::{Picture, PictureError};
@@ -30,15 +30,37 @@ pub(crate) fn check_name(path: &Path) -> Result<(), Failure> {
 }
 
 impl Drawing<'_> {
+    /// Whether paths lead between centers by corners: then the search expands corners, and these are drawn.
+    fn is_by_corners(&self) -> bool {
+        matches!(self.setup.rules(), Rules::CenterGap(_))
+    }
+
+    /// The placement of what is drawn.
+    fn placement(&self) -> PlacementKind {
+        if self.is_by_corners() { PlacementKind::Corner } else { self.setup.rules().placement() }
+    }
+
+    /// A point in the coordinates of what is drawn.
+    fn drawn(&self, at: Point) -> Point {
+        if self.is_by_corners() { at.at_corners() } else { at }
+    }
+
+    /// The starts and the goals of the query.
+    fn ends(&self) -> [Vec<Point>; 2] {
+        [self.query.starts(), self.query.goals()].map(|ends| ends.iter().map(|&at| self.drawn(at)).collect())
+    }
+
     /// Draws the map with the path on the screen.
-    pub(crate) fn on_screen(&self, waypoints: &[Vertex], screen: &mut Screen) -> io::Result<()> {
-        let placement = self.setup.rules().placement();
+    pub(crate) fn on_screen(&self, waypoints: &[Point], screen: &mut Screen) -> io::Result<()> {
+        let placement = self.placement();
         let mut canvas = Canvas::fit(&self.map.tiles(), self.map.theme, placement, screen);
         if let Some(land) = Land::of(self.map) {
             canvas.shade(|x, y| land.share(x, y));
         }
-        canvas.path(waypoints, Stroke::Solid, INKS.best);
-        canvas.ends(&vertices(self.query.starts()), &vertices(self.query.goals()));
+        let waypoints: Vec<Point> = waypoints.iter().map(|&at| self.drawn(at)).collect();
+        canvas.path(&waypoints, Stroke::Solid, INKS.best);
+        let [starts, goals] = self.ends();
+        canvas.ends(&starts, &goals);
         writeln!(screen)?;
         canvas.write(screen)
     }
@@ -49,9 +71,9 @@ impl Drawing<'_> {
         &self,
         path: &Path,
         planner: &mut Planner,
-        waypoints: &[Vertex],
+        waypoints: &[Point],
     ) -> Result<(), Failure> {
-        let placement = self.setup.rules().placement();
+        let placement = self.placement();
         let mut picture = Picture::new(&self.map.ground, placement);
         picture = match Land::of(self.map) {
             Some(land) => {
@@ -67,10 +89,13 @@ impl Drawing<'_> {
         };
         // Where a path was found, its own ends count: those that were asked for may have been moved.
         picture = match (waypoints.first(), waypoints.last()) {
-            (Some(&start), Some(&goal)) => picture.start(start).goal(goal),
-            _ => picture.starts(vertices(self.query.starts())).goals(vertices(self.query.goals())),
+            (Some(&start), Some(&goal)) => picture.start(self.drawn(start)).goal(self.drawn(goal)),
+            _ => {
+                let [starts, goals] = self.ends();
+                picture.starts(starts).goals(goals)
+            }
         };
-        let points = waypoints.iter().map(|at| (f64::from(at.x), f64::from(at.y)));
+        let points = waypoints.iter().map(|&at| self.drawn(at)).map(|at| (at.x(), at.y()));
         let name = format!("{}, k = {}", self.setup.engine.kind(), self.setup.k());
         Ok(picture.path(name, points).radius(self.map.radius).write_to(path)?)
     }
@@ -86,9 +111,4 @@ impl Observer for Searched {
     fn expanded(&mut self, node: NodeEvent) {
         self.expanded.push(node.at);
     }
-}
-
-/// The ends of a query, which on a command line are vertices.
-fn vertices(ends: &[Point]) -> Vec<Vertex> {
-    ends.iter().filter_map(|at| at.vertex()).collect()
 }

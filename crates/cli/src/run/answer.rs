@@ -3,7 +3,7 @@
 use std::{fmt, time::Duration};
 
 use mediant::{
-    Choice, Engine, ErrorCode, Guarantee, Path, PlacementKind, Query, Rules, Setup, Stopped, Vertex,
+    Choice, Engine, ErrorCode, Guarantee, Path, PlacementKind, Point, Query, Rules, Setup, Stopped,
     errors::QueryError,
     options::{EngineOption, OptionValue},
     search::Counters,
@@ -141,7 +141,7 @@ impl QueryRecord {
     }
 
     /// The start and the goal: of a path that was found its ends, else those of the query.
-    pub(crate) fn ends(&self) -> (Vertex, Vertex) {
+    pub(crate) fn ends(&self) -> (Point, Point) {
         let found = self.found().and_then(|found| ends(found.path.as_ref()?));
         found.unwrap_or((self.item.ends.start, self.item.ends.goal))
     }
@@ -184,8 +184,8 @@ impl Found {
 }
 
 /// The ends of a path.
-pub(crate) fn ends(path: &Path) -> Option<(Vertex, Vertex)> {
-    path.waypoints().first().copied().zip(path.waypoints().last().copied())
+pub(crate) fn ends(path: &Path) -> Option<(Point, Point)> {
+    path.start().zip(path.goal())
 }
 
 /// The ratio of two lengths; 1 if both are 0.

@@ -88,7 +88,7 @@ impl Report for Jsonl<'_> {
             line.length = record.path().map(mediant::Path::length);
         }
         line.world = self.world.zip(record.path()).map(|((frame, placement), path)| {
-            path.waypoints().iter().map(|&at| frame.point_of(placement, at)).collect()
+            path.points().map(|at| frame.point_of(placement, at)).collect()
         });
         self.event(&line)
     }
@@ -126,7 +126,7 @@ struct RunLine<'r> {
     #[serde(skip_serializing_if = "Option::is_none")]
     resolution: Option<f64>,
     /// With `--world`, how far the start and the goal of a single query are from the vertices that are
-    /// nearest to them, in meters.
+    /// nearest to them, at any angle from the points that are kept, in meters.
     #[serde(skip_serializing_if = "Option::is_none")]
     moved: Option<[f64; 2]>,
     /// The scenario's file name.
@@ -230,7 +230,7 @@ impl<'r> From<&RunHead<'r>> for RunLine<'r> {
         // The key of the other placement's rule has that rule's default.
         let (corners, gap) = match setup.rules() {
             Rules::Center(corners) => (corners, DiagonalGap::default()),
-            Rules::Corner(gap) => (CornerRule::default(), gap),
+            Rules::Corner(gap) | Rules::CenterGap(gap) => (CornerRule::default(), gap),
         };
         let grid = &run.map.grid;
         Self {
@@ -350,9 +350,9 @@ struct QueryLine<'a> {
     /// The number of the scenario's instance, from 0.
     index: usize,
     /// The first waypoint, if found; else the first start that was asked for.
-    start: [i32; 2],
+    start: Point,
     /// The last waypoint, if found; else the first goal that was asked for.
-    goal: [i32; 2],
+    goal: Point,
     /// All starts that were asked for; only in a run with wishes.
     #[serde(skip_serializing_if = "Option::is_none")]
     starts: Option<&'a [Point]>,
@@ -385,7 +385,7 @@ struct QueryLine<'a> {
     /// The length that the scenario gives: optimal for k = 3 at centers under `never`; -1 if it says that
     /// there is no path. `null` without a scenario.
     reference: Option<f64>,
-    /// If found, the certificate: no path at any angle between its ends under the same rules is shorter. If
+    /// If found, the certificate: no path at any angle between its ends is shorter. If
     /// stopped, no path of the engine's kind between the ends that were asked for is shorter: none over N(k),
     /// or by an engine of any-angle paths none at all. Else `null`.
     lower_bound: Option<f64>,
@@ -423,15 +423,15 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
         let QueryRecord { item, query, searched_by, answer, counters, nanos } = record;
         let (found, path) = (record.found(), record.path());
         let (start, goal) = record.ends();
-        let has_wishes = query.as_ends().is_none();
+        let has_wishes = query.as_points().is_none();
         let stopped = match answer {
             Ok(QueryAnswer::Stopped(stopped)) => Some(stopped),
             _ => None,
         };
         Self {
             index: item.index,
-            start: pair(start),
-            goal: pair(goal),
+            start,
+            goal,
             starts: has_wishes.then(|| query.starts()),
             goals: has_wishes.then(|| query.goals()),
             searched_by: searched_by.map(Engine::name),
@@ -470,10 +470,5 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
 
 /// Vertices as `[x, y]`.
 fn pairs(vertices: &[Vertex]) -> Vec<[i32; 2]> {
-    vertices.iter().copied().map(pair).collect()
-}
-
-/// A vertex as `[x, y]`.
-const fn pair(at: Vertex) -> [i32; 2] {
-    [at.x, at.y]
+    vertices.iter().map(|at| [at.x, at.y]).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::{hint::black_box, time::Instant};
 
-use mediant::{Answer, Ends, Planner, Query, errors::QueryError, search::Counters};
+use mediant::{Answer, Planner, PointEnds, Query, errors::QueryError, search::Counters};
 
 /// The answer of a planner, with counts and time.
 pub(crate) struct Measured {
@@ -26,7 +26,7 @@ impl Measured {
     /// path. The counts are those of the search for the path.
     pub(crate) fn distance(
         planner: &mut Planner,
-        ends: Ends,
+        ends: PointEnds,
         repeat: u32,
     ) -> (Self, Result<Option<f64>, QueryError>) {
         let counted = Self::new(planner, || ends.into(), 0);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mediant::{Ends, PlacementKind, Vertex, grid::Grid, search::End};
+use mediant::{Motion, PointEnds, Vertex, grid::Grid, search::End};
 use mediant_formats::{Instance, Scenario};
 
 use super::timeline::{Edit, Timeline};
@@ -22,7 +22,7 @@ pub(crate) struct Item {
     /// The number of the instance, counted from 0; 0 for a single query.
     pub(crate) index: usize,
     /// Its start and goal; of several the first.
-    pub(crate) ends: Ends,
+    pub(crate) ends: PointEnds,
     /// The length that the scenario gives, if it knows it: optimal for k = 3 at centers under `never`.
     /// [`NO_PATH`] if it knows that there is no path.
     pub(crate) reference: Option<f64>,
@@ -33,10 +33,10 @@ pub(crate) const NO_PATH: f64 = -1.0;
 
 /// A single query, or some of a scenario's, of a list of pairs, or of a timeline.
 pub(crate) enum Queries {
-    Single(Ends),
+    Single(PointEnds),
     Pairs {
         name: String,
-        pairs: Vec<Ends>,
+        pairs: Vec<PointEnds>,
         every: usize,
         limit: usize,
     },
@@ -60,12 +60,12 @@ impl Queries {
         args: &RunArgs,
         wishes: &QueryArgs,
         map: &NamedMap,
-        placement: PlacementKind,
+        motion: Motion,
     ) -> Result<Self, Failure> {
         let every = args.every.map_or(1, usize::from);
         let limit = args.limit.map_or(usize::MAX, usize::from);
         if let Some(path) = &args.pairs {
-            let pairs = read_pairs(path, map, placement)?;
+            let pairs = read_pairs(path, map, motion)?;
             return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
         }
         if let Some(path) = &args.edits {
@@ -73,7 +73,7 @@ impl Queries {
             return Ok(Self::Timeline { name: file_name(&shown(path)), timeline });
         }
         let path = match (&args.scen, wishes.from.first(), wishes.to.first()) {
-            (None, Some(&from), Some(&to)) => return Ok(Self::Single(Ends::new(from, to))),
+            (None, Some(&from), Some(&to)) => return Ok(Self::Single(PointEnds::new(from, to))),
             (Some(path), ..) => path,
             (None, ..) if is_builtin(&args.map.map) => &args.map.map,
             (None, ..) => {
@@ -127,7 +127,7 @@ impl Queries {
     /// The queries, in the order of the file.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Item> {
         let known = !matches!(self, Self::Scenario { known: false, .. });
-        let (single, pairs, instances, every, limit): (_, &[Ends], &[Instance], _, _) = match self {
+        let (single, pairs, instances, every, limit): (_, &[PointEnds], &[Instance], _, _) = match self {
             Self::Single(query) => (Some(*query), &[], &[], 1, 0),
             Self::Pairs { pairs, every, limit, .. } => (None, pairs, &[], *every, *limit),
             Self::Scenario { scenario, every, limit, .. } => {
@@ -147,7 +147,7 @@ impl Queries {
             .chain(pairs)
             .chain(instances.map(move |(index, instance)| Item {
                 index,
-                ends: Ends::new(instance.start, instance.goal),
+                ends: PointEnds::new(instance.start, instance.goal),
                 reference: instance.known_optimal().filter(|_| known),
             }))
             .chain(of_timeline.iter().copied())
@@ -155,7 +155,7 @@ impl Queries {
 }
 
 /// Reads a CSV of pairs: a line `x1,y1,x2,y2` for each query.
-fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<Vec<Ends>, Failure> {
+fn read_pairs(path: &Path, map: &NamedMap, motion: Motion) -> Result<Vec<PointEnds>, Failure> {
     let bytes = bytes(path)?;
     let mut pairs = Vec::new();
     for (index, (line, text)) in lines(&bytes).enumerate() {
@@ -166,8 +166,8 @@ fn read_pairs(path: &Path, map: &NamedMap, placement: PlacementKind) -> Result<V
             continue;
         }
         let [start, goal] = parse_pair(text).map_err(wrong)?;
-        let vertex = |place| map.vertex(placement, place).map_err(|error| wrong(error.to_string()));
-        pairs.push(Ends::new(vertex(start)?, vertex(goal)?));
+        let end = |place| map.end(motion, place).map_err(|error| wrong(error.to_string()));
+        pairs.push(PointEnds::new(end(start)?, end(goal)?));
     }
     if pairs.is_empty() { Err(Failure::NoPairs { path: shown(path) }) } else { Ok(pairs) }
 }

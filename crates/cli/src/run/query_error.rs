@@ -1,6 +1,6 @@
 //! Ends errors in words.
 
-use mediant::{PlacementKind, Vertex, errors::QueryError, grid::Grid};
+use mediant::{PlacementKind, Point, Vertex, errors::QueryError, grid::Grid};
 
 use crate::{map::NamedMap, terminal::numbers::rounded};
 
@@ -19,13 +19,13 @@ pub(crate) fn explain(error: QueryError, map: &NamedMap, placement: PlacementKin
     let free = nearest_free(&map.grid, placement, vertex);
     let nearest = free.map_or_else(String::new, |free| format!("; the nearest one is {free}"));
     let Some(frame) = map.frame else { return reason + &nearest };
-    let in_world = |at: Vertex| {
+    let in_world = |at: Point| {
         let (x, y) = frame.point_of(placement, at);
         format!("({x:.3}, {y:.3}) m")
     };
     let nearest_in_world =
-        free.map_or_else(String::new, |free| format!(", the nearest one at {}", in_world(free)));
-    format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(vertex))
+        free.map_or_else(String::new, |free| format!(", the nearest one at {}", in_world(free.into())));
+    format!("{reason}{nearest}; in the world the {end} is at {}{nearest_in_world}", in_world(at))
 }
 
 /// The free vertex nearest to `at`, of equally near ones the first row by row; `None` if there is none

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use mediant::{Change, Choice, Demand, Index, PlacementKind, Planner, Setup, Space, Vertex};
+use mediant::{Change, Choice, Demand, Index, PlacementKind, Planner, Point, Setup, Space};
 use mediant_formats::Ground;
 
 use super::{
@@ -82,7 +82,7 @@ impl Searchers {
     }
 
     /// The one that answers a query with this start.
-    pub(crate) fn of(&mut self, start: Vertex) -> &mut Searcher {
+    pub(crate) fn of(&mut self, start: Point) -> &mut Searcher {
         if self.first.ground.is_none() {
             return &mut self.first;
         }

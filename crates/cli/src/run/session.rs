@@ -1,6 +1,6 @@
 //! Answers queries one after the other on one warm planner.
 
-use mediant::{Answer, Ends, Path, Planner, Query, Vertex};
+use mediant::{Answer, Path, Planner, Point, PointEnds, Query};
 
 use super::{
     answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead, Unanswered, ends},
@@ -29,7 +29,7 @@ pub(crate) struct Finished {
     /// The first query that could not be answered, if any: its index, and why.
     pub(crate) first_error: Option<(usize, String)>,
     /// The path of the last query, for a picture; empty if there is none.
-    pub(crate) path: Vec<Vertex>,
+    pub(crate) path: Vec<Point>,
 }
 
 impl Session<'_> {
@@ -53,7 +53,7 @@ impl Session<'_> {
                 first_error.get_or_insert_with(|| (item.index, error.to_string()));
             }
             path.clear();
-            path.extend(record.path().into_iter().flat_map(Path::waypoints));
+            path.extend(record.path().into_iter().flat_map(Path::points));
             self.report.query(record)?;
             self.progress.tick();
         }
@@ -101,7 +101,7 @@ impl Session<'_> {
                 Measured::distance(planner, item.ends, run.repeat);
             let answer = match length {
                 Ok(Some(cost)) => {
-                    let Ends { start, goal, .. } = item.ends;
+                    let PointEnds { start, goal, .. } = item.ends;
                     let (straight, any_angle) = (start.distance(goal), shortest(any_angle, (start, goal)));
                     let found = Found::measured(cost, straight, (run.guarantee, rules), any_angle);
                     Ok(QueryAnswer::Found(if has_costs { found.on_costs() } else { found }))
@@ -122,7 +122,7 @@ impl Session<'_> {
         let may_differ = is_other || !planner.index().is_finished();
         let searched_by = may_differ.then(|| planner.searched_by());
         if let Some(trace) = self.trace.take() {
-            trace.write((grid, rules.placement()), planner, (item.ends, query()), &answer)?;
+            trace.write((grid, rules), planner, (item.ends, query()), &answer)?;
         }
         let answer = match answer {
             Ok(Answer::Found(path)) => {
@@ -140,6 +140,6 @@ impl Session<'_> {
 }
 
 /// The length of the shortest any-angle path between the ends of a path, with `--reference`.
-fn shortest(any_angle: &mut Option<Planner>, (start, goal): (Vertex, Vertex)) -> Option<f64> {
+fn shortest(any_angle: &mut Option<Planner>, (start, goal): (Point, Point)) -> Option<f64> {
     any_angle.as_mut()?.find(Query::new(start, goal)).ok()?.cost()
 }

@@ -285,7 +285,7 @@ mod tests {
             scanned: 50,
             fallbacks: 60,
         };
-        let item = Item { index, ends, reference: Some(reference) };
+        let item = Item { index, ends: ends.into(), reference: Some(reference) };
         QueryRecord { item, query: ends.into(), searched_by: None, answer: Ok(answer), counters, nanos }
     }
 

@@ -2,7 +2,9 @@
 
 use std::io::{self, Write};
 
-use mediant::{Engine, Limit, Path, PlacementKind, Stopped, Vertex, files::WorldFrame, options::OptionValue};
+use mediant::{
+    Engine, K, Limit, Path, PlacementKind, Point, Stopped, files::WorldFrame, options::OptionValue,
+};
 
 use super::{
     answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead},
@@ -37,8 +39,10 @@ pub(crate) struct TableReport<'s> {
     may_fall_back: bool,
     /// Where vertices are in the world.
     world: Option<(WorldFrame, PlacementKind)>,
-    /// The distance by which the ends were moved to vertices, in meters.
+    /// The distance by which the ends were moved to vertices, or points, in meters.
     moved: Option<[f64; 2]>,
+    /// Whether the ends are any points.
+    is_any_angle: bool,
     rows: Vec<QueryRecord>,
     /// The number of errors that have no row.
     more_errors: u64,
@@ -61,6 +65,7 @@ impl<'s> TableReport<'s> {
             may_fall_back: false,
             world: None,
             moved: None,
+            is_any_angle: false,
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -117,7 +122,7 @@ impl<'s> TableReport<'s> {
     /// The row of a query, if all have rows.
     fn answer_cells(&self, row: &QueryRecord) -> Vec<String> {
         let (start, goal) = row.ends();
-        let mut cells = vec![row.item.index.to_string(), vertex(start), vertex(goal)];
+        let mut cells = vec![row.item.index.to_string(), start.to_string(), goal.to_string()];
         let (answer, cost) = match &row.answer {
             Err(_) => ("error", None),
             Ok(QueryAnswer::Unreachable) => ("unreachable", None),
@@ -142,7 +147,7 @@ impl<'s> TableReport<'s> {
             return cells;
         }
         if self.has_waypoints() {
-            cells.push(row.path().map_or_else(String::new, |path| path.waypoints().len().to_string()));
+            cells.push(row.path().map_or_else(String::new, |path| path.len().to_string()));
         }
         cells.push(grouped(row.counters.expanded));
         cells.push(time(row.nanos as f64));
@@ -158,10 +163,9 @@ impl<'s> TableReport<'s> {
             writeln!(self.screen)?;
             return certificate(self.screen, found, self.any_angle);
         };
-        let waypoints = path.waypoints();
-        let last = waypoints.len().saturating_sub(1);
-        let words = waypoints.iter().enumerate();
-        let words = words.map(|(i, at)| format!("{}{}", vertex(*at), if i < last { " →" } else { "" }));
+        let last = path.len().saturating_sub(1);
+        let words = path.points().enumerate();
+        let words = words.map(|(i, at)| format!("{at}{}", if i < last { " →" } else { "" }));
         let text = wrap("  path  ", words, self.screen.columns().min(100));
         writeln!(self.screen, "\n{text}")?;
         if self.may_fall_back {
@@ -172,7 +176,8 @@ impl<'s> TableReport<'s> {
             let meters = path.cost() * frame.resolution();
             writeln!(self.screen, "  world {meters:.3} m, {}", in_world(frame, placement, path))?;
             if let Some([start, goal]) = self.moved {
-                let line = format!("  moved to vertices: the start by {start:.3} m, the goal by {goal:.3} m");
+                let to = if self.is_any_angle { "multiples of 1/1024 of a cell" } else { "vertices" };
+                let line = format!("  moved to {to}: the start by {start:.3} m, the goal by {goal:.3} m");
                 writeln!(self.screen, "{line}")?;
             }
         }
@@ -236,6 +241,7 @@ impl Report for TableReport<'_> {
         let setup = run.setup;
         self.queries = run.queries;
         self.world = run.map.frame.map(|frame| (frame, setup.rules().placement()));
+        self.is_any_angle = setup.k() == K::Any;
         self.moved = run.query.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
         self.has_references = self.from_scenario && !run.map.has_costs();
@@ -244,10 +250,8 @@ impl Report for TableReport<'_> {
         self.is_reference = setup.solves_scenarios();
         self.any_angle = run.reference.map_or("", Engine::name);
         self.may_fall_back = setup.engine.detour().is_some();
-        let rule = match setup.rules().placement() {
-            PlacementKind::Center => format!("corners {}", setup.rule_name()),
-            PlacementKind::Corner => format!("gap {}", setup.rule_name()),
-        };
+        let kind = if setup.rules().gap().is_some() { "gap" } else { "corners" };
+        let rule = format!("{kind} {}", setup.rule_name());
         let grid = &run.map.grid;
         let size = format!("{} × {} cells, {} free", grid.width(), grid.height(), grouped(grid.free_cells()));
         writeln!(self.screen, "{} · {size}", self.screen.paint(BOLD, printable(&run.map.name)))?;
@@ -390,15 +394,10 @@ fn options(run: &RunHead<'_>) -> impl Iterator<Item = String> {
     })
 }
 
-/// A vertex as `(x, y)`.
-fn vertex(at: Vertex) -> String {
-    format!("({}, {})", at.x, at.y)
-}
-
 /// The row of a query that could not be answered, if only those have rows.
 fn error_cells(row: &QueryRecord) -> Vec<String> {
     let error = row.answer.as_ref().err().map(|error| error.text.clone()).unwrap_or_default();
-    vec![row.item.index.to_string(), vertex(row.item.ends.start), vertex(row.item.ends.goal), error]
+    vec![row.item.index.to_string(), row.item.ends.start.to_string(), row.item.ends.goal.to_string(), error]
 }
 
 /// Writes the certificate of a path, and how much longer than the path of `any_angle` it is.
@@ -434,11 +433,10 @@ fn stop(screen: &mut Screen, stopped: &Stopped) -> io::Result<()> {
 
 /// The ends of a path in the world, in meters.
 fn in_world(frame: WorldFrame, placement: PlacementKind, path: &Path) -> String {
-    let point = |at: &Vertex| {
-        let (x, y) = frame.point_of(placement, *at);
+    let point = |at: Point| {
+        let (x, y) = frame.point_of(placement, at);
         format!("({x:.3}, {y:.3})")
     };
-    let waypoints = path.waypoints();
-    let ends = waypoints.first().zip(waypoints.last());
+    let ends = path.start().zip(path.goal());
     ends.map_or_else(String::new, |(start, goal)| format!("{} to {}", point(start), point(goal)))
 }

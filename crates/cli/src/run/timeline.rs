@@ -2,7 +2,7 @@
 
 use std::{collections::HashMap, path::Path, sync::Arc};
 
-use mediant::{Costs, Ends, Vertex, grid::Grid};
+use mediant::{Costs, Point, PointEnds, Vertex, grid::Grid};
 use mediant_formats::{DynamicEvent, DynamicScenario, Optimal, Patch, PlacedPatch};
 use serde::{Deserialize, de::IgnoredAny};
 
@@ -40,7 +40,7 @@ pub(crate) struct Timeline {
 #[serde(tag = "type", rename_all = "lowercase")]
 enum Line {
     Edit(EditLine),
-    Query { start: (i32, i32), goal: (i32, i32) },
+    Query { start: Point, goal: Point },
     Run(IgnoredAny),
     Summary(IgnoredAny),
 }
@@ -60,7 +60,7 @@ impl Timeline {
                     let costs = last.after(&cells).map_err(wrong)?;
                     timeline.edit(cells.patch, costs, edit.more);
                 }
-                Ok(Line::Query { start, goal }) => timeline.query(Ends::new(start, goal), None),
+                Ok(Line::Query { start, goal }) => timeline.query(PointEnds::new(start, goal), None),
                 Ok(Line::Run(_) | Line::Summary(_)) => {}
                 Err(error) => return Err(wrong(json_problem(&error))),
             }
@@ -94,7 +94,7 @@ impl Timeline {
                         Optimal::NoPath => Some(NO_PATH),
                         Optimal::Length(length) => Some(length),
                     };
-                    timeline.query(Ends::new(query.start, query.goal), reference);
+                    timeline.query(PointEnds::new(query.start, query.goal), reference);
                 }
             }
         }
@@ -106,7 +106,7 @@ impl Timeline {
         self.edits.push(Edit { cells, after: self.queries.len(), costs, more, initial: false });
     }
 
-    fn query(&mut self, ends: Ends, reference: Option<f64>) {
+    fn query(&mut self, ends: PointEnds, reference: Option<f64>) {
         self.end_change();
         self.queries.push(Item { index: self.queries.len(), ends, reference });
     }

@@ -2,7 +2,7 @@
 
 use std::{io, path};
 
-use mediant::{Answer, Ends, PlacementKind, Planner, Query, errors::QueryError, grid::Grid, search::Tracer};
+use mediant::{Answer, Planner, PointEnds, Query, Rules, errors::QueryError, grid::Grid, search::Tracer};
 use mediant_formats::NewFile;
 
 use crate::{failure::Failure, write::write_file};
@@ -14,13 +14,14 @@ impl TraceFile<'_> {
     /// Writes the search of a query whose answer is known. An invalid query makes a trace without events.
     pub(crate) fn write(
         self,
-        (grid, placement): (&Grid, PlacementKind),
+        (grid, rules): (&Grid, Rules),
         planner: &mut Planner,
-        (ends, query): (Ends, Query),
+        (ends, query): (PointEnds, Query),
         answer: &Result<Answer, QueryError>,
     ) -> Result<(), Failure> {
         let write = |file: &mut NewFile| -> io::Result<()> {
-            let mut tracer = Tracer::new(file, grid, placement)?;
+            let space = planner.index().space().clone();
+            let mut tracer = Tracer::new(file, grid, rules.placement())?.in_space(&space);
             if let Ok(answer) = answer {
                 tracer.begin(ends, Some(answer));
                 // The same query gives the same answer.

@@ -110,12 +110,31 @@ fn certificates_hold() {
 
 #[test]
 fn centers_have_certificates_too() {
-    for (options, worst) in [("", 2.0_f64.sqrt()), (" --corners one --k 4", 1.2427)] {
+    for options in ["", " --corners one --k 4", " --corners always --k 5"] {
         let (_, queries, summary) = told(&format!("run builtin:cave{options}"));
-        let bounds = queries.iter().map(|query| number(query, "bound"));
-        assert!(bounds.clone().all(|bound| (1.0..=worst * SLACK).contains(&bound)) && bounds.count() == 32);
-        assert!(queries.iter().all(|query| query["any_angle"].is_null() && query["ratio"].is_null()));
+        let (_, compared, excess) = told(&format!("run builtin:cave{options} --reference anya"));
+        assert_eq!((queries.len(), compared.len()), (32, 32));
+        for (query, compared) in queries.iter().zip(&compared) {
+            assert!(query["any_angle"].is_null() && query["ratio"].is_null());
+            // The straight line is all that is known of the shortest path, which bends at corners.
+            let (bound, cost) = (number(query, "bound"), number(query, "cost"));
+            let best = number(compared, "any_angle");
+            assert!(number(query, "lower_bound") <= best * SLACK && bound >= 1.0, "{query}");
+            assert!(best <= cost * SLACK && number(compared, "ratio") >= 1.0, "{compared}");
+        }
         assert!(summary["ratio"].is_null() && !summary["bound"].is_null());
+        assert!(number(&excess["ratio"], "mean") > 1.0 && number(&excess["ratio"], "mean") < 1.2, "{excess}");
+    }
+}
+
+#[test]
+fn between_centers_a_path_at_any_angle_is_its_own_certificate() {
+    let (run, queries, _) = told("run builtin:cave --k any --placement center");
+    assert_eq!((&run["placement"], &run["gap"]), (&"center".into(), &"closed".into()));
+    assert!(queries.iter().all(|query| query["bound"] == 1.0 && query["lower_bound"] == query["cost"]));
+    let (_, by_labels, _) = told("run builtin:cave --k any --placement center --engine subgoal --gap closed");
+    for (one, other) in queries.iter().zip(&by_labels) {
+        assert!((number(one, "cost") - number(other, "cost")).abs() < 1e-8, "{one}, {other}");
     }
 }
 
@@ -210,17 +229,17 @@ fn what_does_not_go_together_is_refused() {
     for (options, message) in [
         ("--engine theta --k any", "theta needs a k from 2 to 12; for any choose anya, subgoal"),
         (
-            "--engine anya --placement center",
+            "--engine anya --k 4 --placement center",
             &format!("anya needs placement corner; for center choose {centers}"),
         ),
+        ("--engine anya --corners one", "--corners: at any angle paths bend at corners: there is gap"),
         (
-            "--engine anya --corners one",
-            "anya needs placement corner; for center choose astar, dijkstra, wavefront, canonical, jps, jps-block, \
-             jps-plus, theta, lazy-theta, subgoal, hpa, chpa, landmarks",
+            "--k any --placement center --corners never",
+            "--corners: at any angle paths bend at corners: there is gap",
         ),
         (
-            "--reference anya",
-            "--reference anya finds no any-angle paths at --placement center: leave it out, or choose --placement corner",
+            "--k 4 --placement center --gap open",
+            "--gap: it is for placement corner; at centers there is corners",
         ),
         (
             "--reference astar",

@@ -247,7 +247,7 @@ fn files_without_paths() {
         ("y,x\n1\n", "line 2: expected x,y in the columns 2 and 1, found `1`"),
         (
             "1,1\n2.5,3\n",
-            "line 2: (2.5, 3) is no vertex: write whole numbers, such as 3,14, or meters with --world",
+            "line 2: (2.5, 3) is no vertex: write whole numbers, such as 3,14, or --k any, or meters with --world",
         ),
     ] {
         let file = files.add("odd.txt", text);

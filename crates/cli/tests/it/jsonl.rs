@@ -280,6 +280,7 @@ fn every_option_reaches_the_planner() {
                         DiagonalGap::Closed => ["--gap", "closed"],
                     },
                 ),
+                Rules::CenterGap(_) => unreachable!("it is not among those over N(k)"),
             };
             let (k, placement) = (k.to_string(), rules.placement().to_string());
             let args = [

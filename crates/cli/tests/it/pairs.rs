@@ -63,7 +63,7 @@ fn what_is_no_pair_is_told_with_its_line() {
         ("1,2,3,4\n1,b,3,4\n", "line 2: `b` is no whole number; write X,Y such as 3,14"),
         (
             "1,2,0.5,4\n",
-            "line 1: (0.5, 4) is no vertex: write whole numbers, such as 3,14, or meters with --world",
+            "line 1: (0.5, 4) is no vertex: write whole numbers, such as 3,14, or --k any, or meters with --world",
         ),
         ("x1,y1,x2,y2\n", "no pair in it: write a line x1,y1,x2,y2 for each query"),
         ("", "no pair in it: write a line x1,y1,x2,y2 for each query"),

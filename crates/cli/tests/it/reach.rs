@@ -173,7 +173,8 @@ fn sources_that_cannot_be() {
     fails("reach builtin:cave --from 99,0", outside);
     let missing = "the following required arguments were not provided: --from <X,Y>; see --help";
     check("reach builtin:cave", missing);
-    let no_vertex = "(2.5, 5) is no vertex: write whole numbers, such as 3,14, or meters with --world";
+    let no_vertex =
+        "(2.5, 5) is no vertex: write whole numbers, such as 3,14, or --k any, or meters with --world";
     check("reach builtin:cave --from 2.5,5", no_vertex);
     check(
         "reach builtin:cave --from 2,5 --world",
@@ -188,9 +189,8 @@ fn arguments_that_make_no_sense() {
         "invalid value '-1' for '--within <COST>': expected a number of cells, 0 or more, such as 2.5; see --help",
     );
     check(
-        "reach builtin:cave --from 2,5 --k any --placement center",
-        "no engine searches center, corners never, k = any: choose a k from 2 to 12 \
-         (4 to 4096 neighbors), or placement corner for k = any",
+        "reach builtin:cave --from 2,5 --k any --placement center --corners one",
+        "--corners: at any angle paths bend at corners: there is gap",
     );
     check(
         "reach builtin:cave --from 2,5 --placement center --gap open",

@@ -194,7 +194,10 @@ fn mistakes_are_told_in_a_line() {
         "--world --from 100,2 --to 0,2",
         "(100, 2) is outside the map, which lies between (-2.000, 1.000) and (18.000, 11.000) in the world",
     );
-    check("--from 0.5,2 --to 0,2", "(0.5, 2) is no vertex: write whole numbers, such as 3,14, or meters");
+    check(
+        "--from 0.5,2 --to 0,2",
+        "(0.5, 2) is no vertex: write whole numbers, such as 3,14, or --k any, or meters",
+    );
     check("--from 1,2 --to 0,2 --radius -1", "expected a number of cells, 0 or more");
     check("--from 1,2 --to 0,2 --draw path.gif", "path.gif: expected a name that ends in .png or .svg");
     check("--from 1,2 --to 0,2 --threshold 2", "threshold");

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use mediant_grid::{Interrupt, Interrupted, Rules};
+use mediant_grid::{Interrupt, Interrupted, PlacementKind};
 
 use super::buckets::Buckets;
 #[cfg(not(target_family = "wasm"))]
@@ -129,9 +129,11 @@ fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Inter
     let mut costs = Vec::with_capacity(states);
     for piece in weights.chunks(1 << 18) {
         interrupt.check("filling memory")?;
-        match graph.rules() {
-            Rules::Center(_) => costs.extend(piece.iter().map(|&weight| if weight > 0 { NONE } else { 0 })),
-            Rules::Corner(_) => costs.resize(costs.len() + piece.len(), NONE),
+        match graph.rules().placement() {
+            PlacementKind::Center => {
+                costs.extend(piece.iter().map(|&weight| if weight > 0 { NONE } else { 0 }));
+            }
+            PlacementKind::Corner => costs.resize(costs.len() + piece.len(), NONE),
         }
     }
     costs.resize(states, NONE);

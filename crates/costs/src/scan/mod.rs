@@ -137,7 +137,7 @@ impl Scanner {
         let allowed = match rules {
             Rules::Center(CornerRule::Never) => 0b1000,
             Rules::Center(CornerRule::One) => 0b1110,
-            Rules::Center(CornerRule::Always) | Rules::Corner(_) => 0b1111,
+            Rules::Center(CornerRule::Always) | Rules::Corner(_) | Rules::CenterGap(_) => 0b1111,
         };
         Self { moves, steps, gaps, rules, allowed, near, far }
     }

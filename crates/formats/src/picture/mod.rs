@@ -16,7 +16,7 @@ mod vertex_colors;
 
 use std::{fmt, io, io::Write, path::Path as FilePath};
 
-use mediant_grid::{Grid, PlacementKind, Vertex};
+use mediant_grid::{Grid, PlacementKind, Point, Vertex};
 
 pub use error::PictureError;
 
@@ -68,8 +68,8 @@ pub struct Picture<'g> {
     expanded: Vec<Vertex>,
     open: Vec<Vertex>,
     paths: Vec<Line>,
-    starts: Vec<Vertex>,
-    goals: Vec<Vertex>,
+    starts: Vec<Point>,
+    goals: Vec<Point>,
     radius: f64,
     caption: String,
     largest_side: u32,
@@ -150,25 +150,25 @@ impl<'g> Picture<'g> {
 
     /// The same picture with a badge S at this vertex.
     #[must_use]
-    pub fn start(self, at: impl Into<Vertex>) -> Self {
+    pub fn start(self, at: impl Into<Point>) -> Self {
         self.starts([at])
     }
 
     /// The same picture with a badge S at each of these vertices.
     #[must_use]
-    pub fn starts<V: Into<Vertex>>(self, at: impl IntoIterator<Item = V>) -> Self {
+    pub fn starts<V: Into<Point>>(self, at: impl IntoIterator<Item = V>) -> Self {
         Self { starts: at.into_iter().map(Into::into).collect(), ..self }
     }
 
     /// The same picture with a badge G at this vertex, if it is not the start.
     #[must_use]
-    pub fn goal(self, at: impl Into<Vertex>) -> Self {
+    pub fn goal(self, at: impl Into<Point>) -> Self {
         self.goals([at])
     }
 
     /// The same picture with a badge G at each of these vertices that is no start.
     #[must_use]
-    pub fn goals<V: Into<Vertex>>(self, at: impl IntoIterator<Item = V>) -> Self {
+    pub fn goals<V: Into<Point>>(self, at: impl IntoIterator<Item = V>) -> Self {
         Self { goals: at.into_iter().map(Into::into).collect(), ..self }
     }
 
@@ -256,7 +256,7 @@ impl<'g> Picture<'g> {
         let goals = self.goals.iter().filter(|goal| !self.starts.contains(goal));
         let goals = goals.map(|&at| (badge::Letter::G, at));
         let starts = self.starts.iter().map(|&at| (badge::Letter::S, at));
-        let place = |at: Vertex| self.place((f64::from(at.x), f64::from(at.y)));
+        let place = |at: Point| self.place((at.x(), at.y()));
         goals.chain(starts).map(move |(letter, at)| (letter, place(at)))
     }
 }

@@ -5,7 +5,7 @@ mod render;
 use std::io::{self, Write};
 
 use mediant_grid::{Grid, PlacementKind};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use render::render;
 
@@ -55,9 +55,9 @@ pub struct TraceEvent {
     /// The number of the vertex from which it was reached.
     pub parent: Option<u32>,
     /// The column, in cells.
-    pub x: i32,
+    pub x: f64,
     /// The row, in cells, downward.
-    pub y: i32,
+    pub y: f64,
     /// The estimated cost of a path through the vertex, if the search has one. Written as `null` if not
     /// finite.
     pub f: Option<f64>,
@@ -76,7 +76,7 @@ pub struct TraceEvent {
 /// use mediant_formats::{TraceEvent, TraceEventKind, TraceHeader, TraceWriter};
 /// use mediant_grid::PlacementKind;
 /// let mut trace = TraceWriter::new(Vec::new(), &TraceHeader { placement: PlacementKind::Center, map: None
-/// })?; let start = TraceEvent { id: 7, parent: None, x: 3, y: 1, f: Some(2.5), g: Some(0.0) };
+/// })?; let start = TraceEvent { id: 7, parent: None, x: 3.0, y: 1.0, f: Some(2.5), g: Some(0.0) };
 /// trace.event(TraceEventKind::Source, &start)?;
 /// trace.event(TraceEventKind::Expanding, &start)?;
 /// let text = String::from_utf8(trace.finish()?)?;
@@ -104,12 +104,23 @@ struct Line {
     id: u32,
     #[serde(rename = "pId")]
     parent: Option<u32>,
-    x: i32,
-    y: i32,
+    #[serde(serialize_with = "shortest")]
+    x: f64,
+    #[serde(serialize_with = "shortest")]
+    y: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     f: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     g: Option<f64>,
+}
+
+/// Writes a whole number as an integer.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn shortest<S: Serializer>(&number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    match number.fract() == 0.0 && number.abs() <= f64::from(i32::MAX) {
+        true => serializer.serialize_i32(number as i32),
+        false => serializer.serialize_f64(number),
+    }
 }
 
 impl<'g, W: Write> TraceWriter<'g, W> {

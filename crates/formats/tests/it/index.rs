@@ -170,7 +170,7 @@ fn what_is_no_index_word_by_word() {
     assert!(matches!(forged(12, &[0; 16]), IndexError::Field { .. }), "no name");
     assert!(matches!(forged(12, "jps-plüs".as_bytes()), IndexError::Field { .. }), "not ASCII");
     // The codes of rules and k end the identity, which begins at byte 32.
-    for (at, code) in [(32 + 24, 5), (32 + 28, 1)] {
+    for (at, code) in [(32 + 24, 7), (32 + 28, 1)] {
         let text = forged(at, &[code]).to_string();
         assert!(text.starts_with("expected a map with the codes of its rules and k, found `"), "{text}");
         assert!(text.ends_with("another program wrote this index; prepare it again"), "{text}");

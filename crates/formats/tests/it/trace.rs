@@ -8,7 +8,7 @@ use mediant_grid::{AsciiMap, Grid, PlacementKind};
 use serde_json::{Value, json};
 
 fn event(id: u32, parent: Option<u32>, (x, y): (i32, i32), (f, g): (f64, f64)) -> TraceEvent {
-    TraceEvent { id, parent, x, y, f: Some(f), g: Some(g) }
+    TraceEvent { id, parent, x: f64::from(x), y: f64::from(y), f: Some(f), g: Some(g) }
 }
 
 /// A search from (1, 0) to (0, 1) on a map of 2 × 2 cells.

@@ -137,23 +137,38 @@ impl Call {
     /// # Errors
     /// As for [`motion`](Self::motion).
     pub fn motion_from(&self, usual: Motion) -> Result<Motion, CallError> {
+        let (k, usual_placement) = (self.k()?.unwrap_or(usual.k), usual.rules.placement());
+        let is_any_at_centers = k == K::Any && usual_placement == PlacementKind::Center;
+        let placement = match (self.placement, self.corners, self.gap) {
+            (Some(placement), ..) => placement,
+            (None, Some(_), _) => PlacementKind::Center,
+            (None, None, Some(_)) if !is_any_at_centers => PlacementKind::Corner,
+            (None, None, _) => usual_placement,
+        };
         let together = |meaning, why| Err(CallError::Together { parameter: Parameter::of(meaning), why });
-        let rules = match (self.placement, self.corners, self.gap) {
-            (_, Some(_), Some(_)) | (Some(PlacementKind::Center), None, Some(_)) => {
+        let rules = match (placement, self.corners, self.gap) {
+            (PlacementKind::Center, Some(_), _) if k == K::Any => {
+                return together(Meaning::Corners, "at any angle paths bend at corners: there is gap");
+            }
+            (PlacementKind::Center, None, gap) if k == K::Any => {
+                let known = usual.rules.gap().filter(|_| is_any_at_centers);
+                Rules::CenterGap(gap.or(known).unwrap_or(DiagonalGap::Closed))
+            }
+            (PlacementKind::Center, _, Some(_)) => {
                 return together(Meaning::Gap, "it is for placement corner; at centers there is corners");
             }
-            (Some(PlacementKind::Corner), Some(_), None) => {
+            (PlacementKind::Corner, Some(_), _) => {
                 return together(Meaning::Corners, "it is for placement center; at corners there is gap");
             }
-            (_, Some(corners), None) => Rules::Center(corners),
-            (_, None, Some(gap)) => Rules::Corner(gap),
-            (Some(placement), ..) if placement != usual.rules.placement() => match placement {
-                PlacementKind::Center => Rules::Center(CornerRule::default()),
-                PlacementKind::Corner => Rules::Corner(DiagonalGap::default()),
-            },
-            _ => usual.rules,
+            (PlacementKind::Center, corners, None) => {
+                Rules::Center(corners.or(usual.rules.corners()).unwrap_or_default())
+            }
+            (PlacementKind::Corner, None, gap) => {
+                let known = usual.rules.gap().filter(|_| usual_placement == PlacementKind::Corner);
+                Rules::Corner(gap.or(known).unwrap_or_default())
+            }
         };
-        Ok(Motion::new(self.k()?.unwrap_or(usual.k), rules))
+        Ok(Motion::new(k, rules))
     }
 
     /// Checks all that can be known without a map: the motion, and whether an engine that was named takes it

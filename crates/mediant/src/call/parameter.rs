@@ -197,7 +197,7 @@ pub static PARAMETERS: [Parameter; if cfg!(feature = "publications") { 25 } else
             Kind::Name,
             Meaning::Gap,
             "At corners, whether a path may pass where two blocked cells touch diagonally: open or closed. \
-             Without a placement it means corners",
+             Without a placement it means corners. At centers it is for any angle, and closed by default",
         )
     },
     wish(

@@ -1,7 +1,7 @@
 //! Wishes beyond the ends of a path.
 
-use mediant_grid::Vertex;
-use mediant_search::{Ends, Limits as SearchLimits, Query};
+use mediant_grid::Point;
+use mediant_search::{Limits as SearchLimits, Query};
 
 use crate::limits::Limits;
 
@@ -48,10 +48,15 @@ impl Wishes {
     /// The query for the shortest path from any start to any goal within limits, which are those of
     /// [`limits`](Self::limits) with a deadline or a flag of the caller's.
     #[must_use]
-    pub fn query(&self, starts: &[Vertex], goals: &[Vertex], limits: impl Into<SearchLimits>) -> Query {
+    pub fn query<P: Into<Point> + Copy>(
+        &self,
+        starts: &[P],
+        goals: &[P],
+        limits: impl Into<SearchLimits>,
+    ) -> Query {
         let limits = limits.into();
         let mut query = match (starts, goals) {
-            (&[start], &[goal]) => Ends::new(start, goal).into(),
+            (&[start], &[goal]) => Query::new(start, goal),
             _ => Query::between(starts.iter().copied(), goals.iter().copied()),
         };
         if !limits.are_none() {

@@ -300,9 +300,10 @@ impl Index {
         self.prepared.follow(search)
     }
 
-    /// Its hub labels, if it has any.
+    /// Its hub labels, if it has any, for many goals. These are vertices of the labels: between centers at
+    /// any angle no goal is.
     pub(crate) fn labels(&self) -> Option<&dyn HasLabels> {
-        self.prepared.labels()
+        if self.space.is_between_centers() { None } else { self.prepared.labels() }
     }
 
     /// The value of an option, as [`ConfiguredEngine::value`], but levels, side and landmarks as they are in

@@ -195,26 +195,37 @@ impl Planner {
     /// [`QueryError`] for an end that is blocked or outside the map, or where the engine gives up.
     pub fn find(&mut self, query: impl Into<Query>) -> Result<Answer, QueryError> {
         let query = query.into();
-        let Some(ends) = query.as_ends() else {
-            if let Some(ends) = query.as_points() {
-                return self.find_between(ends);
-            }
+        let Some(ends) = query.as_points() else {
             self.begin(query)?;
             return self.finish();
         };
         self.begun = None;
         self.check_smoothing()?;
+        if self.index.space().is_between_centers() {
+            let answer = self.solve_at(ends.at_corners());
+            return self.at_centers(answer);
+        }
+        let Some(ends) = ends.vertices() else { return self.solve_at(ends) };
         let Some(smooth) = &self.smooth else { return self.search.solve(ends) };
         let is_found = self.search.seek(ends)?;
         Ok(smoothed_to(&mut *self.search, smooth, ends.goal, is_found))
     }
 
-    /// Answers a query between points of which one at least is no vertex.
-    fn find_between(&mut self, ends: PointEnds) -> Result<Answer, QueryError> {
-        self.begun = None;
-        self.check_smoothing()?;
-        let answer = Dynamic(&mut *self.search).solve_at(ends);
-        self.smoothed(answer.unwrap_or_else(|| Err(ends.between())))
+    /// Answers a query between points, in the coordinates of the search.
+    fn solve_at(&mut self, ends: PointEnds) -> Result<Answer, QueryError> {
+        let answer = match ends.vertices() {
+            Some(ends) => self.search.solve(ends),
+            None => Dynamic(&mut *self.search).solve_at(ends).unwrap_or_else(|| Err(ends.between())),
+        };
+        self.smoothed(answer)
+    }
+
+    /// An answer of the search in the coordinates of the space.
+    fn at_centers(&self, answer: Result<Answer, QueryError>) -> Result<Answer, QueryError> {
+        match self.index.space().is_between_centers() {
+            true => answer.map(Answer::at_centers).map_err(QueryError::at_centers),
+            false => answer,
+        }
     }
 
     /// The path from `start` to `goal`, if there is one: [`find`](Self::find) for a plain query.
@@ -261,7 +272,8 @@ impl Planner {
     /// As for [`find`](Self::find).
     pub fn distance(&mut self, ends: impl Into<PointEnds>) -> Result<Option<f64>, QueryError> {
         let ends = ends.into();
-        match ends.vertices().filter(|_| self.smooth.is_none()) {
+        let is_plain = self.smooth.is_none() && !self.index.space().is_between_centers();
+        match ends.vertices().filter(|_| is_plain) {
             Some(ends) => {
                 self.begun = None;
                 self.search.distance(ends)
@@ -271,7 +283,8 @@ impl Planner {
     }
 
     /// Answers a query and reports the events of the search. Where cells have costs, events count these in
-    /// units (`Costs::unit`).
+    /// units (`Costs::unit`). Between centers at any angle the search turns at corners of cells, and its
+    /// events name these: (x, y) is the upper left corner of cell (x, y).
     ///
     /// # Errors
     /// As for [`find`](Self::find).
@@ -281,7 +294,8 @@ impl Planner {
         observer: &mut dyn Observer,
     ) -> Result<Answer, QueryError> {
         let query = query.into();
-        let Some(ends) = query.as_ends() else {
+        let is_between_centers = self.index.space().is_between_centers();
+        let Some(ends) = query.as_ends().filter(|_| !is_between_centers) else {
             self.begin(query)?;
             return self.finish_observed(observer);
         };

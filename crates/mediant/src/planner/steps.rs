@@ -1,8 +1,8 @@
 //! Searches in steps.
 
-use mediant_grid::{FreeSpace, Placement, Vertex};
+use mediant_grid::Point;
 use mediant_moves::K;
-use mediant_search::{Answer, Guarantee, Observer, Path, Query, QueryError, Search};
+use mediant_search::{Answer, CenterSpace, EndSpace, Guarantee, Observer, Path, Query, QueryError, Search};
 
 use super::{Planner, Rough};
 use crate::{
@@ -51,9 +51,12 @@ impl Planner {
         let begun = match space.placed() {
             Placed::Centers(layers) => {
                 let free = if is_any_angle { layers.at_any_angle() } else { &layers.free };
-                search_in(space, free, guarantee, query)
+                search_in(space, &**free, guarantee, query)
             }
-            Placed::Corners(layers) => search_in(space, &layers.free, guarantee, query),
+            Placed::Corners(layers) if space.is_between_centers() => {
+                search_in(space, &CenterSpace(&layers.free), guarantee, query)
+            }
+            Placed::Corners(layers) => search_in(space, &*layers.free, guarantee, query),
         }?;
         self.begun = Some(if self.smooth.is_some() { begun.keeping_bends() } else { begun });
         Ok(())
@@ -80,7 +83,7 @@ impl Planner {
         let Self { begun, search, .. } = self;
         let begun = begun.as_mut().ok_or(QueryError::NotBegun)?;
         let answer = begun.step(&mut Dynamic(&mut **search), expansions, &mut observer)?;
-        answer.map(|answer| self.smoothed(Ok(answer))).transpose()
+        answer.map(|answer| self.at_centers(self.smoothed(Ok(answer)))).transpose()
     }
 
     /// Continues the search until there is an answer.
@@ -96,7 +99,7 @@ impl Planner {
         let Self { begun, search, .. } = self;
         let begun = begun.as_mut().ok_or(QueryError::NotBegun)?;
         let answer = begun.finish(&mut Dynamic(&mut **search), &mut observer);
-        self.smoothed(answer)
+        self.at_centers(self.smoothed(answer))
     }
 
     /// The best path so far of the search that was begun: to a goal, if one was found, else to the vertex
@@ -106,16 +109,23 @@ impl Planner {
         let Self { begun, search, smooth, .. } = self;
         let begun = begun.as_ref()?;
         let best = begun.best(&mut Dynamic(&mut **search));
-        let Some(smooth) = smooth else { return Some(best) };
-        Some(smooth(begun.bends().map_or(Rough::Found(&best), Rough::Bends)))
+        let best = match smooth {
+            Some(smooth) => smooth(begun.bends().map_or(Rough::Found(&best), Rough::Bends)),
+            None => best,
+        };
+        Some(if self.index.space().is_between_centers() { best.at_centers() } else { best })
     }
 
     /// The path by which the search that was begun has reached a vertex, as the search found it: for most
-    /// engines, one that it expanded. `None` for others, and without a search.
+    /// engines, one that it expanded. `None` for others, and without a search. Between centers at any angle
+    /// it expands corners: (0.5, 0.5) is the lower right one of cell (0, 0).
     #[must_use]
-    pub fn path_to(&mut self, at: impl Into<Vertex>) -> Option<Path> {
-        let Self { begun, search, .. } = self;
-        begun.as_ref()?.path_to(&mut Dynamic(&mut **search), at.into())
+    pub fn path_to(&mut self, at: impl Into<Point>) -> Option<Path> {
+        let Self { begun, search, index, .. } = self;
+        let space = index.space();
+        let at = space.in_search(at.into()).vertex()?;
+        let path = begun.as_ref()?.path_to(&mut Dynamic(&mut **search), at)?;
+        Some(if space.is_between_centers() { path.at_centers() } else { path })
     }
 
     /// A lower bound on the cost of its answer, in cells, or in costs where cells have some. 0 without a
@@ -133,9 +143,9 @@ impl Planner {
 }
 
 /// The search for a query by a planner with this guarantee.
-fn search_in<P: Placement>(
+fn search_in(
     space: &Space,
-    free: &FreeSpace<P>,
+    free: &impl EndSpace,
     guarantee: Guarantee,
     query: Query,
 ) -> Result<Search, QueryError> {

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use mediant::{
-    Error, Limits, Map, Vertex,
+    Error, Limits, Map, Point,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
 };
 use serde_json::{Map as Object, Value as Json, json};
@@ -36,9 +36,9 @@ fn call(of: &Json) -> Result<Call, CallError> {
     Ok(call)
 }
 
-fn vertex(of: &Json) -> Vertex {
-    let at = |index: usize| of[index].as_i64().expect("a coordinate") as i32;
-    Vertex::new(at(0), at(1))
+fn point(of: &Json) -> Point {
+    let at = |index: usize| of[index].as_f64().expect("a coordinate");
+    (at(0), at(1)).into()
 }
 
 /// The answer to a call.
@@ -53,13 +53,14 @@ fn answer(map: &Map, case: &Json) -> Result<Json, Error> {
         planners => planners?,
     };
     let limits = limits(call.wishes().limits());
-    let query = call.wishes().query(&[vertex(&case["start"])], &[vertex(&case["goal"])], limits);
+    let query = call.wishes().query(&[point(&case["start"])], &[point(&case["goal"])], limits);
     let told = planners.find(query)?;
     let mut expected = Object::new();
     expected.insert("setup".to_owned(), setup.to_string().into());
     expected.insert("status".to_owned(), told.status().name().into());
     if let Some(path) = told.path() {
-        let waypoints: Vec<[i32; 2]> = path.waypoints().iter().map(|at| [at.x, at.y]).collect();
+        let number = |cells: f64| if cells.fract() == 0.0 { json!(cells as i32) } else { json!(cells) };
+        let waypoints: Vec<[Json; 2]> = path.points().map(|at| [number(at.x()), number(at.y())]).collect();
         expected.insert("path".to_owned(), json!(waypoints));
         expected.insert("distance".to_owned(), json!(told.distance(setup.guarantee())));
     }

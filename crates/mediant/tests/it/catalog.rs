@@ -384,8 +384,13 @@ fn each_wrong_part_is_named() {
     }
 
     assert!(wrong("anya:13").ends_with("anya needs a k from 2 to 12, found 13"));
-    assert!(wrong("anya:any:one").contains("anya needs placement corner; for center choose astar, "));
-    assert!(wrong("astar:3:sometimes").ends_with("the rules are never, one, always, open, closed"));
+    assert!(wrong("anya:4:one").contains("anya needs placement corner; for center choose astar, "));
+    assert!(
+        wrong("anya:any:one").contains("at any angle paths between centers bend at corners of obstacles")
+    );
+    assert!(
+        wrong("astar:3:sometimes").contains("the rules are never, one, always, open, closed, center-open")
+    );
     assert!(wrong("astar:3:one:two").ends_with("nothing but options may follow the rule"));
     for option in ["", "limit=0", "limit=x", "limit", "fast"] {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");

@@ -1,7 +1,8 @@
 //! Many goals at once, against a query for each.
 
 use mediant::{
-    DiagonalGap, Engine, Error, ErrorCode, Goals, Index, K, Map, Motion, Planner, Query, Rules, Setup, Vertex,
+    DiagonalGap, Engine, Error, ErrorCode, Goals, Index, K, Map, Motion, Planner, Point, Query, Rules, Setup,
+    Vertex,
 };
 use mediant_oracle::{Rng, on_all_cores, random_free_vertex, random_grid, seeds};
 
@@ -17,9 +18,9 @@ fn vertices(rng: &mut Rng, map: &Map, setup: Setup, count: usize) -> Option<Vec<
 
 /// Compares the distances to goals, and the nearest one, with a query for each.
 fn check(planner: &mut Planner, goals: &Goals, start: Vertex, text: &str) {
-    let mut length = |goal: Vertex| planner.find(Query::new(start, goal)).expect("free ends").cost();
+    let mut length = |goal: Point| planner.find(Query::new(start, goal)).expect("free ends").cost();
     let lengths: Vec<f64> =
-        goals.vertices().iter().map(|&goal| length(goal).unwrap_or(f64::INFINITY)).collect();
+        goals.points().iter().map(|&goal| length(goal).unwrap_or(f64::INFINITY)).collect();
     let is_near = |one: f64, other: f64| one == other || (one - other).abs() < 1e-9 * other;
     let distances = planner.distances(start, goals).expect("a free start");
     assert_eq!(distances.len(), lengths.len(), "{text}");
@@ -32,7 +33,7 @@ fn check(planner: &mut Planner, goals: &Goals, start: Vertex, text: &str) {
     if let Some(((goal, distance), least)) = nearest.zip(least) {
         assert!(is_near(distance, least) && is_near(lengths[goal], least), "{start}: {distance}: {text}");
         // The first of those that are equal to the bit.
-        let first = goals.vertices().iter().position(|&at| at == goals.vertices()[goal]);
+        let first = goals.points().iter().position(|&at| at == goals.points()[goal]);
         assert_eq!(first, Some(goal), "{text}");
     }
 }

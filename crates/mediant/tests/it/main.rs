@@ -1,5 +1,6 @@
 //! The library.
 
+mod between_centers;
 mod calls;
 mod catalog;
 mod costs;

@@ -3,8 +3,8 @@
 use std::num::NonZeroU32;
 
 use mediant::{
-    Ends, Engine, Error, ErrorCode as Code, FiniteK, Index, K, Limits, Map, Motion, Path, Query, Rectangle,
-    Setup, Space, Vertex,
+    CornerRule, Ends, Engine, Error, ErrorCode as Code, FiniteK, Index, K, Limits, Map, Motion, Path, Query,
+    Rectangle, Setup, Space, Vertex,
     call::{Call, CallError, Group, Parameter, Spelling, Value},
     errors::absent,
     grid::Grid,
@@ -50,7 +50,7 @@ fn in_maps_and_queries() -> Vec<Mistake> {
         (Code::EditOutside, map().edit(outside, |_, _| true).map(drop)),
         (Code::EditOutside, walkers().edit(outside, |_, _| true).map(drop)),
         (Code::K, FiniteK::new(1).map(drop).map_err(Error::from)),
-        (Code::Motion, map().space(Motion::centers(K::ANY)).map(drop)),
+        (Code::Motion, map().space(Motion::new(K::ANY, CornerRule::Never)).map(drop)),
         (Code::Motion, map().space(Motion::corners(k(13))).map(drop)),
         (Code::Argument, call("nearest", 1.into()).map(drop).map_err(Error::from)),
         (Code::Argument, call("tolerance", Value::Number(-1.0)).map(drop).map_err(Error::from)),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Error, Goals, Index, Limits, Planner, Planners, Vertex};
+use mediant::{Error, Goals, Index, Limits, Planner, Planners, Point};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// The goals, prepared for the index.
-fn prepared(py: Python<'_>, index: &Index, goals: Vec<Vertex>) -> PyResult<Goals> {
+fn prepared(py: Python<'_>, index: &Index, goals: Vec<Point>) -> PyResult<Goals> {
     let (index, are_few) = (index.clone(), goals.len() <= Planners::CHUNK);
     let work = move |limits: &Limits| index.within(limits).goals(goals);
     let goals = match are_few {
@@ -25,7 +25,7 @@ fn prepared(py: Python<'_>, index: &Index, goals: Vec<Vertex>) -> PyResult<Goals
 }
 
 /// The number of the first vertex that is blocked or outside the map.
-fn first_invalid(index: &Index, ends: &[Vertex]) -> Option<usize> {
+fn first_invalid(index: &Index, ends: &[Point]) -> Option<usize> {
     ends.iter().position(|&at| !index.space().is_free(at))
 }
 
@@ -105,8 +105,8 @@ pub(crate) fn nearest<'py>(
         return Err(numbered("goal", number, error));
     }
     // The goals that are left keep their numbers.
-    let is_valid = |&(_, at): &(i64, Vertex)| index.space().is_free(at);
-    let (numbers, goals): (Vec<i64>, Vec<Vertex>) = (0..).zip(goals).filter(is_valid).unzip();
+    let is_valid = |&(_, at): &(i64, Point)| index.space().is_free(at);
+    let (numbers, goals): (Vec<i64>, Vec<Point>) = (0..).zip(goals).filter(is_valid).unzip();
     let (goals, all) = (prepared(py, index, goals)?, Numbered::queries(starts.len()));
     let answer = move |chunk: &mut Nearest, planner: &mut Planner, index: usize, _: &_| {
         let (number, distance) = match planner.nearest(starts[index], &goals) {

@@ -4,12 +4,11 @@ use mediant::{
     Error, Ground, Limits, Map, Rectangle, Vertex,
     grid::{Clearance, Fit, Outside},
 };
-use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
 use crate::{
-    arguments::{integer, point, positive, word},
+    arguments::{integer, positive, vertex, word},
     arrays::{PathPoints, rows_array},
     background::{detached, in_pool, on_thread},
     errors::{argument, raised},
@@ -203,16 +202,16 @@ impl Grid {
         surplus: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
         motion: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Option<(Bound<'py, PyArray2<i32>>, f64)>> {
+    ) -> PyResult<Option<(Bound<'py, PyAny>, f64)>> {
         let (py, points) = (start.py(), PathPoints::read(points)?);
         let space = self.moved("widest_path", py, motion)?;
-        let placement = space.motion().rules.placement();
-        let (start, goal) = (point("start", start)?, point("goal", goal)?);
+        let rules = space.motion().rules;
+        let (start, goal) = (vertex("start", start)?, vertex("goal", goal)?);
         let surplus = positive("surplus", surplus)?;
         let work =
             move |limits: &Limits| in_pool(None, || space.within(limits).widest_path(start, goal, surplus));
         let widest = on_thread(py, Limits::new(), work, |_| Ok(()))?.map_err(raised)?;
-        widest.map(|widest| Ok((points.array(py, &widest.path, placement)?, widest.radius))).transpose()
+        widest.map(|widest| Ok((points.array(py, &widest.path, rules)?, widest.radius))).transpose()
     }
 }
 

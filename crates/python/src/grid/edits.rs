@@ -5,7 +5,7 @@ use pyo3::{prelude::*, types::PyBool};
 
 use super::Grid;
 use crate::{
-    arguments::{Points, flag, numpy_function, point},
+    arguments::{Points, flag, numpy_function, vertex},
     arrays::patch,
     errors::{argument, exception, instead, raised, wrong_type},
     world::placed,
@@ -122,7 +122,7 @@ impl Grid {
 
 /// The cells of a map that an argument names.
 pub(crate) fn cells_on(name: &str, value: &Bound<'_, PyAny>, map: &Map) -> PyResult<Vec<Vertex>> {
-    let cells = Points::read(name, value)?.into_vec();
+    let cells = Points::read(name, value)?.into_vertices(name)?;
     let is_on = |at: i32, side: u32| u32::try_from(at).is_ok_and(|at| at < side);
     match cells.iter().find(|at| !(is_on(at.x, map.width()) && is_on(at.y, map.height()))) {
         None => Ok(cells),
@@ -165,7 +165,7 @@ impl Patch {
         at: &Bound<'_, PyAny>,
         blocked: &Bound<'_, PyAny>,
     ) -> PyResult<Option<Self>> {
-        let (at, (cells, rows, columns)) = (point("at", at)?, patch("blocked", blocked)?);
+        let (at, (cells, rows, columns)) = (vertex("at", at)?, patch("blocked", blocked)?);
         let (width, height) = (map.width() as usize, map.height() as usize);
         let fits = |first: i32, count: usize, side: usize| {
             usize::try_from(first).is_ok_and(|first| first < side && count <= side - first)

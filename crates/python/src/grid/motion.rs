@@ -5,7 +5,7 @@ use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
 use crate::{
-    arguments::{path_points, point as vertex},
+    arguments::{path_points, point as place},
     errors::broken,
     keywords::{Keywords, MOTION},
 };
@@ -42,7 +42,7 @@ impl Grid {
         text_signature = "($self, point, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
     )]
     fn is_free(&self, point: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
-        let at = vertex("point", point)?;
+        let at = place("point", point)?;
         Ok(self.moved("is_free", point.py(), motion)?.is_free(at))
     }
 
@@ -75,7 +75,7 @@ impl Grid {
         goal: &Bound<'_, PyAny>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let (start_at, goal_at) = (vertex("start", start)?, vertex("goal", goal)?);
+        let (start_at, goal_at) = (place("start", start)?, place("goal", goal)?);
         Ok(self.moved("connected", start.py(), motion)?.connected(start_at, goal_at))
     }
 
@@ -112,7 +112,7 @@ impl Grid {
         goal: &Bound<'_, PyAny>,
         motion: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<bool> {
-        let (start_at, goal_at) = (vertex("start", start)?, vertex("goal", goal)?);
+        let (start_at, goal_at) = (place("start", start)?, place("goal", goal)?);
         Ok(self.moved("sees", start.py(), motion)?.sees(start_at, goal_at))
     }
 
@@ -146,7 +146,7 @@ impl Grid {
         text_signature = "($self, path, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
     )]
     fn check(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
-        let waypoints = Path::new(path_points("path", path)?);
+        let waypoints = Path::through(path_points("path", path)?);
         self.moved("check", path.py(), motion)?.check(&waypoints).map_err(broken)
     }
 
@@ -175,7 +175,7 @@ impl Grid {
         text_signature = "($self, path, *, k=None, neighbors=None, placement=None, corners=None, gap=None)"
     )]
     fn holds(&self, path: &Bound<'_, PyAny>, motion: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
-        let waypoints = Path::new(path_points("path", path)?);
+        let waypoints = Path::through(path_points("path", path)?);
         Ok(self.moved("holds", path.py(), motion)?.check(&waypoints).is_ok())
     }
 

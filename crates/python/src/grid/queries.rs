@@ -9,7 +9,6 @@ use mediant::{
     Answer, Demand, Error, Limit, Limits, Stopped,
     search::{Progress, Stage},
 };
-use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Grid;
@@ -34,7 +33,8 @@ impl Grid {
     /// Parameters
     /// ----------
     /// start, goal : tuple of int
-    ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
+    ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal. At
+    ///     any angle also floats: any point of the free space, rounded to a multiple of 1/1024 of a cell.
     /// points : {"waypoints", "vertices", "touched"}
     ///     The points of the array: see `find`.
     /// **how
@@ -43,7 +43,7 @@ impl Grid {
     /// Returns
     /// -------
     /// numpy.ndarray or None
-    ///     Shape (n, 2), int32; None if there is no path.
+    ///     Shape (n, 2), int32, through points between vertices float64; None if there is no path.
     ///
     /// Raises
     /// ------
@@ -62,6 +62,8 @@ impl Grid {
     /// [[0, 0], [0, 3], [2, 3]]
     /// >>> grid.path((0, 0), (3, 4), k="any").tolist()
     /// [[0, 0], [1, 3], [3, 4]]
+    /// >>> grid.path((0.5, 0.25), (2, 3), k="any").tolist()
+    /// [[0.5, 0.25], [1.0, 1.0], [2.0, 3.0]]
     #[pyo3(
         signature = (start, goal, *, points = None, **how),
         text_signature = "($self, start, goal, *, points='waypoints', k=None, neighbors=None, placement=None, \
@@ -76,7 +78,7 @@ impl Grid {
         goal: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
         how: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let keywords = Keywords::read("path", how, ALL)?;
         let planners = match self.planners(py, &keywords)? {
             Ok(planners) => planners,

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant::{Answer, Ends, Limits, Planners, errors::QueryError};
-use numpy::PyArray2;
+use mediant::{Answer, Limits, Planners, PointEnds, errors::QueryError};
 use pyo3::{prelude::*, types::PyDict};
 
 use super::Index;
@@ -31,10 +30,10 @@ impl Asked<'_, '_> {
     }
 
     /// The query, if no more is asked than a path from one vertex to another.
-    fn plain(&self, (start, goal): &(Points, Points)) -> Option<Ends> {
+    fn plain(&self, (start, goal): &(Points, Points)) -> Option<PointEnds> {
         match (start, goal) {
             (Points::One(start), Points::One(goal)) if self.keywords.call.wishes().is_none() => {
-                Some(Ends::new(*start, *goal))
+                Some(PointEnds::new(*start, *goal))
             }
             _ => None,
         }
@@ -76,11 +75,11 @@ impl Asked<'_, '_> {
         &self,
         py: Python<'py>,
         points: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let points = PathPoints::read(points)?;
         let rules = self.planners.index().setup().rules();
         let answer = answer::whole(py, self.answered(&self.ends()?, false)?.0, points, rules)?;
-        answer.path().map(|path| points.array(py, path, rules.placement())).transpose()
+        answer.path().map(|path| points.array(py, path, rules)).transpose()
     }
 
     /// `distance`. It makes no path where it needs none.
@@ -119,7 +118,8 @@ impl Index {
     /// Parameters
     /// ----------
     /// start, goal : tuple of int
-    ///     (row, column); or several of each, shape (n, 2): the shortest path from any start to any goal.
+    ///     (row, column), at any angle also of floats; or several of each, shape (n, 2): the shortest path
+    ///     from any start to any goal.
     /// points : {"waypoints", "vertices", "touched"}
     ///     The points of the array: see `Grid.find`.
     /// **wishes
@@ -128,7 +128,7 @@ impl Index {
     /// Returns
     /// -------
     /// numpy.ndarray or None
-    ///     Shape (n, 2), int32; None if there is no path.
+    ///     Shape (n, 2), int32, through points between vertices float64; None if there is no path.
     ///
     /// Raises
     /// ------
@@ -155,7 +155,7 @@ impl Index {
         goal: &Bound<'py, PyAny>,
         points: Option<&Bound<'py, PyAny>>,
         wishes: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let keywords = Keywords::read("path", wishes, WISHES)?;
         Asked { planners: &self.planners, start, goal, keywords }.path(py, points)
     }

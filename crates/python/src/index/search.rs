@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard},
 };
 
-use mediant::{Answer, Ends, Limits, Path, Planner, Rules, Vertex, errors::QueryError, search::Observer};
+use mediant::{Answer, Limits, Path, Planner, PointEnds, Rules, errors::QueryError, search::Observer};
 use numpy::PyArray2;
 use pyo3::{prelude::*, types::PyDict};
 
@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     answer::{PyAnswer, Searched},
-    arguments::{Points, file, flag, integer, point},
+    arguments::{Points, file, flag, integer, point as asked_point},
     arrays::{PathPoints, points_array},
     background::on_thread,
     errors::{argument, raised},
@@ -61,7 +61,7 @@ pub(crate) struct Search {
 struct State {
     planner: Planner,
     /// For the file of a trace: the first start and the first goal.
-    ends: Ends,
+    ends: PointEnds,
     trace: Option<Events>,
     answer: Option<Answer>,
 }
@@ -113,8 +113,8 @@ impl Search {
     }
 
     /// A path with its array.
-    fn path<'py>(&self, py: Python<'py>, path: &Path) -> PyResult<Bound<'py, PyArray2<i32>>> {
-        self.points.array(py, path, self.rules.placement())
+    fn path<'py>(&self, py: Python<'py>, path: &Path) -> PyResult<Bound<'py, PyAny>> {
+        self.points.array(py, path, self.rules)
     }
 
     fn step_by(&self, py: Python<'_>, expansions: u64) -> PyResult<Option<PyAnswer>> {
@@ -139,7 +139,7 @@ impl Search {
 impl Search {
     /// The best path so far.
     #[getter]
-    fn best<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
+    fn best<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let best = py.detach(|| Ok::<_, PyErr>(idle(&self.state)?.planner.best()))?;
         best.map(|path| self.path(py, &path)).transpose()
     }
@@ -237,8 +237,8 @@ impl Search {
     /// >>> search = mediant.Grid.from_rows(["....."]).prepare("dijkstra").search((0, 0), (0, 4))
     /// >>> search.step(3) is None, search.path_to((0, 2)).tolist(), search.path_to((0, 4))
     /// (True, [[0, 0], [0, 2]], None)
-    fn path_to<'py>(&self, point: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyArray2<i32>>>> {
-        let (py, at) = (point.py(), vertex(point)?);
+    fn path_to<'py>(&self, point: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let (py, at) = (point.py(), asked_point("point", point)?);
         let path = py.detach(|| Ok::<_, PyErr>(idle(&self.state)?.planner.path_to(at)))?;
         path.map(|path| self.path(py, &path)).transpose()
     }
@@ -328,10 +328,6 @@ impl Search {
     }
 }
 
-fn vertex(value: &Bound<'_, PyAny>) -> PyResult<Vertex> {
-    point("point", value)
-}
-
 #[pymethods]
 impl Index {
     /// Begins a search that goes on in steps. Nothing is expanded yet.
@@ -386,7 +382,7 @@ impl Index {
         let (start, goal) = (Points::read("start", start)?, Points::read("goal", goal)?);
         let (points, index) = (PathPoints::read(points)?, self.planners.index().clone());
         let first = |ends: &Points| ends.as_slice().first().copied().unwrap_or_default();
-        let ends = Ends::new(first(&start), first(&goal));
+        let ends = PointEnds::new(first(&start), first(&goal));
         let query = keywords.timed_request(&start, &goal);
         let planner = py.detach(|| -> Result<Planner, mediant::Error> {
             let mut planner = index.try_planner()?;

@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf, time::Instant};
 
 use mediant::{
-    Answer, Cost, Ends, Limits, Space, Vertex,
+    Answer, Cost, Limits, PointEnds, Space, Vertex,
     search::{Counters, NodeEvent, Observer, Tracer},
 };
 use mediant_formats::NewFile;
@@ -56,12 +56,12 @@ impl Events {
         &self,
         path: PathBuf,
         space: &Space,
-        (query, answer): (Ends, Option<&Answer>),
+        (query, answer): (PointEnds, Option<&Answer>),
         limits: &Limits,
     ) -> PyResult<()> {
         let (placement, interrupt) = (space.motion().rules.placement(), limits.interrupt());
         let written = NewFile::write_with(path, |file| {
-            let mut tracer = Tracer::new(file, space.map().grid(), placement)?;
+            let mut tracer = Tracer::new(file, space.map().grid(), placement)?.in_space(space);
             tracer.begin(query, answer);
             for chunk in self.all.chunks(1024) {
                 interrupt.check("writing a trace").map_err(io::Error::other)?;

@@ -62,7 +62,8 @@ impl JumpPointRule {
     /// The rule of a grid graph.
     pub(super) fn of<P: Placement>(graph: &GridGraph<P>) -> Self {
         match graph.rules() {
-            Rules::Corner(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
+            // A grid graph has no vertices between centers by corners.
+            Rules::Corner(gap) | Rules::CenterGap(gap) => Self::Edges { closed: gap == DiagonalGap::Closed },
             Rules::Center(rule) if rule == CornerRule::Never || graph.k() == FiniteK::N4 => Self::Behind,
             Rules::Center(rule) => Self::Ahead { one: rule == CornerRule::One },
         }

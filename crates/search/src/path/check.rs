@@ -96,6 +96,24 @@ impl BrokenPath {
             Self::Segment { index, .. } | Self::Gap { index, .. } => *index + 1,
         }
     }
+
+    /// The same of a path between corners in the coordinates of [`CenterSpace`](crate::CenterSpace).
+    #[must_use]
+    pub fn at_centers(self) -> Self {
+        let moved = |at: Option<Point>| at.map(Point::at_centers);
+        match self {
+            Self::Empty => Self::Empty,
+            Self::Outside { index, at, holds } => Self::Outside { index, at: at.at_centers(), holds },
+            Self::Between { index, at, holds } => Self::Between { index, at: at.at_centers(), holds },
+            Self::Blocked { end, at, holds } => Self::Blocked { end, at: at.at_centers(), holds },
+            Self::Segment { index, from, to, by } => {
+                Self::Segment { index, from: from.at_centers(), to: to.at_centers(), by: by.at_centers() }
+            }
+            Self::Gap { index, at, before, after } => {
+                Self::Gap { index, at: at.at_centers(), before: moved(before), after: moved(after) }
+            }
+        }
+    }
 }
 
 impl Path {

@@ -215,15 +215,17 @@ impl Path {
         Self { own_cost: self.own_cost, ..Self::through(self.points().rev()) }
     }
 
-    /// The same path, moved by so many parts of a cell (1/1024) to the right and down.
-    #[doc(hidden)]
+    /// A path of a search between corners in the coordinates of centers: see
+    /// [`CenterSpace`](crate::CenterSpace).
     #[must_use]
-    pub fn moved(&self, (right, down): (i64, i64)) -> Self {
-        let moved = self.points().map(|at| {
-            let (x, y) = at.parts();
-            Point::from_parts(x + right, y + down)
-        });
-        Self { own_cost: self.own_cost, ..Self::through(moved) }
+    pub fn at_centers(&self) -> Self {
+        Self { own_cost: self.own_cost, ..Self::through(self.points().map(Point::at_centers)) }
+    }
+
+    /// The other way round.
+    #[must_use]
+    pub fn at_corners(&self) -> Self {
+        Self { own_cost: self.own_cost, ..Self::through(self.points().map(Point::at_corners)) }
     }
 
     /// This path and then another one, which begins where this one ends. If it goes straight on there, that

@@ -23,7 +23,7 @@ pub(super) struct Pair {
     pub(super) rank: (u32, u32),
 }
 
-/// The pairs of start and goal that a query asks for.
+/// The pairs of start and goal that a query asks for, in the coordinates of its search.
 #[derive(Debug)]
 pub(super) struct EndSets {
     /// The connected pairs, by their least cost, then by rank.
@@ -58,7 +58,7 @@ impl EndSets {
         let starts = free_ends(space, metric, wishes, End::Start, &wishes.starts)?;
         let goals = free_ends(space, metric, wishes, End::Goal, &wishes.goals)?;
         let start = *starts.first().ok_or(QueryError::NoEnd { end: End::Start })?;
-        let mut ends = Self { pairs: Vec::new(), start, are_nearest: false };
+        let mut ends = Self { pairs: Vec::new(), start: space.searched(start), are_nearest: false };
         ends.add(space, bound, &starts, &goals);
         if ends.pairs.is_empty() && wishes.nearest {
             ends.are_nearest = true;
@@ -78,6 +78,7 @@ impl EndSets {
                         Some(ends) => bound(ends.start.to(ends.goal)),
                         None => Metric::Euclidean.between(start, goal),
                     };
+                    let ends = PointEnds::new(space.searched(start), space.searched(goal));
                     self.pairs.push(Pair { ends, least, rank: (goal_rank, start_rank) });
                 }
             }
@@ -96,7 +97,7 @@ impl EndSets {
         let is_reachable = |at: Vertex| starts.iter().any(|&start| space.connected(start, at.into()));
         let mut near: Option<(Cost, Vec<Vertex>)> = None;
         for &goal in &wishes.goals {
-            let goal = clamped(space, goal);
+            let goal = space.clamped(goal);
             let Some((cost, vertices)) = nearest(space, metric, goal, is_reachable) else { continue };
             match &mut near {
                 Some((least, _)) if *least < cost => {}
@@ -132,7 +133,7 @@ fn free_ends(
         }
         let known = free.len();
         let checked = space.check(end, at);
-        if end == End::Goal && wishes.tolerance > 0.0 && clamped(space, at) == at {
+        if end == End::Goal && wishes.tolerance > 0.0 && space.clamped(at) == at {
             free.extend(around(space, at, wishes.tolerance).map(Point::from));
             if at.vertex().is_none() && checked.is_ok() {
                 free.push(at);
@@ -144,11 +145,11 @@ fn free_ends(
             continue;
         }
         if wishes.snap {
-            let at = clamped(space, at);
+            let at = space.clamped(at);
             let moved = nearest(space, metric, at, |at| space.is_free(at))
                 .and_then(|(_, near)| near.first().copied());
             free.push(moved.map(Point::from).ok_or_else(|| nothing_free(space, end, at))?);
-        } else if end == End::Start || !wishes.nearest || clamped(space, at) != at {
+        } else if end == End::Start || !wishes.nearest || space.clamped(at) != at {
             checked?;
         }
     }
@@ -171,12 +172,4 @@ fn around<S: EndSpace>(space: &S, goal: Point, cells: f64) -> impl Iterator<Item
     let all = rows.flat_map(move |y| columns.clone().map(move |x| Vertex::new(x, y)));
     let greatest = with_room(cells) * with_room(cells);
     all.filter(move |&at| goal.distance_squared(at.into()) <= greatest && space.is_free(at))
-}
-
-/// The point of the map's rectangle that is nearest along each axis.
-fn clamped(space: &impl EndSpace, at: Point) -> Point {
-    let (width, height) = space.size();
-    let (x, y) = at.parts();
-    let last = |vertices: u32| i64::from(vertices.saturating_sub(1)) * Point::PARTS;
-    Point::from_parts(x.clamp(0, last(width)), y.clamp(0, last(height)))
 }

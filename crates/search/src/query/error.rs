@@ -80,6 +80,23 @@ pub enum QueryError {
     },
 }
 
+impl QueryError {
+    /// The error of a search between corners in the coordinates of [`CenterSpace`](crate::CenterSpace).
+    #[must_use]
+    pub fn at_centers(self) -> Self {
+        match self {
+            Self::Outside { end, at, last } => {
+                let last = Vertex::new(last.x.saturating_sub(1), last.y.saturating_sub(1));
+                Self::Outside { end, at: at.at_centers(), last }
+            }
+            Self::Between { end, at } => Self::Between { end, at: at.at_centers() },
+            Self::Blocked { end, at } => Self::Blocked { end, at: at.at_centers() },
+            Self::NothingFree { end, at } => Self::NothingFree { end, at: at.at_centers() },
+            other => other,
+        }
+    }
+}
+
 impl fmt::Debug for QueryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, atomic::AtomicBool},
 };
 
-use mediant_grid::{Interrupt, StoppedBy, Vertex, names};
+use mediant_grid::{Interrupt, Point, StoppedBy, names};
 use mediant_moves::Cost;
 
 use super::error::QueryError;
@@ -95,8 +95,8 @@ impl fmt::Display for Stopped {
 impl Stopped {
     /// The answer where nothing was searched: what comes before the search was stopped. 0 is the lower bound.
     #[must_use]
-    pub fn before_search(by: Limit, start: Vertex) -> Self {
-        Self { by, best: Path::new(vec![start]), lower_bound: 0.0 }
+    pub fn before_search(by: Limit, start: impl Into<Point>) -> Self {
+        Self { by, best: Path::through([start]), lower_bound: 0.0 }
     }
 }
 

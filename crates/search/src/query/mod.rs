@@ -18,7 +18,7 @@ use mediant_grid::Point;
 
 pub use self::{
     end::End,
-    end_space::EndSpace,
+    end_space::{CenterSpace, EndSpace},
     ends::Ends,
     error::QueryError,
     limits::{Limit, Limits, Stopped},
@@ -214,22 +214,6 @@ impl Query {
     #[inline]
     pub fn as_points(&self) -> Option<PointEnds> {
         if self.wishes.is_some() { None } else { Some(self.ends) }
-    }
-
-    /// The same query with each end moved by so many parts of a cell (1/1024) to the right and down.
-    #[doc(hidden)]
-    #[must_use]
-    pub fn moved(mut self, (right, down): (i64, i64)) -> Self {
-        let moved = |at: &mut Point| {
-            let (x, y) = at.parts();
-            *at = Point::from_parts(x.saturating_add(right), y.saturating_add(down));
-        };
-        moved(&mut self.ends.start);
-        moved(&mut self.ends.goal);
-        if let Some(wishes) = &mut self.wishes {
-            wishes.starts.iter_mut().chain(&mut wishes.goals).for_each(moved);
-        }
-        self
     }
 
     fn wishes_mut(&mut self) -> &mut Wishes {

@@ -39,6 +39,13 @@ impl PointEnds {
         Some(Ends::new(self.start.vertex()?, self.goal.vertex()?))
     }
 
+    /// The ends between centers in the coordinates of a search between corners:
+    /// [`CenterSpace`](crate::CenterSpace).
+    #[must_use]
+    pub fn at_corners(self) -> Self {
+        Self::new(self.start.at_corners(), self.goal.at_corners())
+    }
+
     /// The error of these ends where only vertices are ends.
     #[must_use]
     pub fn between(self) -> QueryError {

@@ -167,7 +167,7 @@ fn each_of(name: &str, value: &JsValue, may_be_null: bool) -> Result<Vec<Option<
 
 /// Cells with their new costs.
 pub(crate) fn cost_edits(cells: &JsValue, costs: &JsValue) -> Result<Vec<(Vertex, Option<f64>)>, JsValue> {
-    let cells = Points::read("cells", cells)?.into_vec();
+    let cells = Points::read("cells", cells)?.into_vertices("cells")?;
     if let (Some(_), ..) | (_, true) = (costs.as_f64(), costs.is_null()) {
         return Ok(cells.into_iter().map(|cell| (cell, costs.as_f64())).collect());
     }

@@ -192,7 +192,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] cells: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "boolean | Uint8Array | Uint8ClampedArray")] blocked: &JsValue,
     ) -> Result<Self, JsValue> {
-        let cells = Points::read("cells", cells)?.into_vec();
+        let cells = Points::read("cells", cells)?.into_vertices("cells")?;
         let each = match blocked.as_bool() {
             Some(_) => Vec::new(),
             None => cells_of(blocked, ("one for each cell", cells.len() as u64))?,

@@ -1,6 +1,5 @@
 //! Paths at once.
 
-use js_sys::Int32Array;
 use mediant::{Answer, Error, ErrorCode, Guarantee, Limit, Rules, Stopped};
 use wasm_bindgen::prelude::*;
 
@@ -11,7 +10,7 @@ use crate::{
     errors::{coded, raised},
     keywords::{ALL, Keywords, call_error},
     memory,
-    types::JsAnswer,
+    types::{JsAnswer, JsWaypoints},
 };
 
 #[wasm_bindgen]
@@ -34,7 +33,7 @@ impl Grid {
         #[wasm_bindgen(unchecked_param_type = "Points")] start: &JsValue,
         #[wasm_bindgen(unchecked_param_type = "Points")] goal: &JsValue,
         #[wasm_bindgen(unchecked_optional_param_type = "How")] how: &JsValue,
-    ) -> Result<Option<Int32Array>, JsValue> {
+    ) -> Result<Option<JsWaypoints>, JsValue> {
         match self.answered(start, goal, how)? {
             (Answer::Stopped(Stopped { by, lower_bound, .. }), _) => {
                 let text = format!(
