@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf, process::ExitCode};
 
 use mediant::{
-    Engine, PlacementKind, Vertex,
+    Vertex,
     call::CallError,
     errors::{CostsError, SetupError},
 };

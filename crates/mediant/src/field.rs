@@ -1,9 +1,11 @@
 //! Distance fields in a space.
 
+mod between_centers;
 #[cfg(feature = "costs")]
 mod costs;
 mod heading;
 mod rows;
+mod sources;
 
 use std::{fmt, num::NonZeroUsize, sync::Arc};
 
@@ -13,13 +15,15 @@ use mediant_costs::{CostField, CostGraph};
 use mediant_costs::{Heading, WalkingField, WalkingGraph};
 use mediant_grid::{
     Centers, Change as GridChange, Corners, FreeSpace, GridGraph, Identity, Interrupt, MapId, Mismatch,
-    Vertex,
+    Point, Vertex,
 };
 use mediant_moves::FiniteK;
 use mediant_search::{
     self as search, AnyAngleField, AnyAngleFields, FieldError, FieldQuery, Path, QueryError,
 };
 
+use self::between_centers::{CenterField, CenterFields};
+pub(crate) use self::sources::Sources;
 use crate::{
     change::Change,
     error::Error,
@@ -34,14 +38,23 @@ use crate::{
 /// angle. Where cells have [costs](crate::Map::costs) it has costs in place of distances: a cost distance, or
 /// accumulated cost surface.
 ///
+/// **Points.** At any angle a source may be any [point](Point) of the free space, as a start or goal of a
+/// [`Query`](crate::Query) may, and so may a place that is asked about. It is rounded to a multiple of 1/1024
+/// of a cell. A field has the distances of vertices, row by row; that of a point between them is found when it
+/// is asked for, from all that the point sees.
+///
 /// ```
-/// use mediant::{K, Map, Motion};
+/// use mediant::{DiagonalGap, K, Map, Motion};
 ///
 /// let space = Map::from_rows(["....", ".##.", "...."])?.space(Motion::centers(K::N8))?;
 /// let field = space.field([(0, 0), (3, 2)])?;
 /// assert_eq!((field.get((3, 0)), field.get((1, 1))), (Some(2.0), None));
 /// assert_eq!(field.next((3, 0)), Some((3, 1).into()));
 /// assert_eq!(field.path_from((3, 0)).map(|path| path.cost()), Some(2.0));
+///
+/// let any = Map::from_rows(["....", ".##.", "...."])?.space(Motion::new(K::ANY, DiagonalGap::Open))?;
+/// let field = any.field([(0.5, 1.5)])?;
+/// assert_eq!((field.get((0.5, 2.5)), field.next((1, 1))), (Some(1.0), Some((0.5, 1.5).into())));
 /// # Ok::<(), mediant::Error>(())
 /// ```
 pub struct Field {
@@ -52,6 +65,7 @@ enum Inner {
     Centers(search::Field<Arc<GridGraph<Centers>>>),
     Corners(search::Field<Arc<GridGraph<Corners>>>),
     AnyAngle(AnyAngleField<Arc<FreeSpace<Corners>>>),
+    BetweenCenters(CenterField),
     #[cfg(feature = "costs")]
     Costs(CostField),
     #[cfg(feature = "walking")]
@@ -69,6 +83,7 @@ enum Makers {
     Centers(search::Fields<Arc<GridGraph<Centers>>, Centers>),
     Corners(search::Fields<Arc<GridGraph<Corners>>, Corners>),
     AnyAngle(AnyAngleFields<Arc<FreeSpace<Corners>>>),
+    BetweenCenters(Box<CenterFields>),
     #[cfg(feature = "costs")]
     Costs(Arc<CostGraph>, NonZeroUsize),
     #[cfg(feature = "walking")]
@@ -76,11 +91,11 @@ enum Makers {
 }
 
 impl Space {
-    /// The distance of every vertex to the nearest source.
+    /// The distance of every vertex to the nearest source. At any angle sources may lie between vertices.
     ///
     /// # Errors
     /// As for [`Fields::field`].
-    pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+    pub fn field<P: Into<Point>>(&self, sources: impl IntoIterator<Item = P>) -> Result<Field, Error> {
         self.fields()?.field(sources)
     }
 
@@ -90,9 +105,9 @@ impl Space {
     ///
     /// # Errors
     /// As for [`Fields::field_within`].
-    pub fn field_within<V: Into<Vertex>>(
+    pub fn field_within<P: Into<Point>>(
         &self,
-        sources: impl IntoIterator<Item = V>,
+        sources: impl IntoIterator<Item = P>,
         limit: f64,
     ) -> Result<Field, Error> {
         self.fields()?.field_within(sources, limit)
@@ -106,13 +121,8 @@ impl Space {
         self.fields_of(&NEVER)
     }
 
-    pub(crate) fn field_of(
-        &self,
-        sources: &[Vertex],
-        limit: f64,
-        interrupt: &Interrupt,
-    ) -> Result<Field, Error> {
-        self.fields_of(interrupt)?.make(FieldQuery::new(sources).within(limit))
+    pub(crate) fn field_of(&self, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
+        self.fields_of(interrupt)?.make(query)
     }
 
     pub(crate) fn fields_of(&self, interrupt: &Interrupt) -> Result<Fields, Error> {
@@ -132,6 +142,9 @@ impl Space {
         Ok(match (self.placed(), self.motion().k.finite()) {
             (Placed::Centers(layers), Some(k)) => Makers::Centers(fields_over(layers, k, interrupt)?),
             (Placed::Corners(layers), Some(k)) => Makers::Corners(fields_over(layers, k, interrupt)?),
+            (Placed::Corners(layers), None) if self.is_between_centers() => {
+                Makers::BetweenCenters(Box::new(CenterFields::new(self, &layers.free, interrupt)?))
+            }
             (Placed::Corners(layers), None) => {
                 Makers::AnyAngle(AnyAngleFields::interruptible(Arc::clone(&layers.free), interrupt)?)
             }
@@ -170,25 +183,23 @@ impl Fields {
     /// The distance of every vertex to the nearest source. Without a source it is empty.
     ///
     /// # Errors
-    /// [`Error::Query`] for the first source that is blocked or outside the map; [`Error::OutOfMemory`]
-    /// before a field of costs is made for which there is no room.
-    pub fn field<V: Into<Vertex>>(&mut self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
-        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources))
+    /// [`Error::Query`] for the first source that is blocked or outside the map, or lies between vertices
+    /// where paths start at vertices: over N(k) and on costs; [`Error::OutOfMemory`] before a field of costs
+    /// is made for which there is no room.
+    pub fn field<P: Into<Point>>(&mut self, sources: impl IntoIterator<Item = P>) -> Result<Field, Error> {
+        self.make(Sources::of(sources).query())
     }
 
     /// The distances of those vertices whose distance to the nearest source is at most `limit` cells.
     ///
     /// # Errors
-    /// [`Error::Query`] for the first source that is blocked or outside the map, and for a limit that is
-    /// negative or not a number.
-    pub fn field_within<V: Into<Vertex>>(
+    /// As for [`field`](Self::field), and [`Error::Query`] for a limit that is negative or not a number.
+    pub fn field_within<P: Into<Point>>(
         &mut self,
-        sources: impl IntoIterator<Item = V>,
+        sources: impl IntoIterator<Item = P>,
         limit: f64,
     ) -> Result<Field, Error> {
-        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.make(FieldQuery::new(&sources).within(limit))
+        self.make(Sources::of(sources).query().within(limit))
     }
 
     fn make(&mut self, query: FieldQuery<'_>) -> Result<Field, Error> {
@@ -197,6 +208,7 @@ impl Fields {
             Makers::Centers(fields) => fields.field_interruptible(query, interrupt).map(Inner::Centers),
             Makers::Corners(fields) => fields.field_interruptible(query, interrupt).map(Inner::Corners),
             Makers::AnyAngle(fields) => fields.field_interruptible(query, interrupt).map(Inner::AnyAngle),
+            Makers::BetweenCenters(fields) => fields.field(query, interrupt).map(Inner::BetweenCenters),
             #[cfg(feature = "costs")]
             Makers::Costs(graph, threads) => return costs::on_costs((graph, *threads), query, interrupt),
             #[cfg(feature = "walking")]
@@ -242,6 +254,7 @@ macro_rules! of_each {
             Inner::Centers($field) => $value,
             Inner::Corners($field) => $value,
             Inner::AnyAngle($field) => $value,
+            Inner::BetweenCenters($field) => $value,
             #[cfg(feature = "costs")]
             Inner::Costs($field) => $value,
             #[cfg(feature = "walking")]
@@ -249,8 +262,6 @@ macro_rules! of_each {
         }
     };
 }
-
-use of_each;
 
 impl Field {
     /// The field of the same sources and limit in the space after a change: the same as one made anew, to the
@@ -306,6 +317,10 @@ impl Field {
             (Inner::Corners(field), Placed::Corners(layers), Some(k)) => {
                 Inner::Corners(repaired_over(field, layers, (k, cells), interrupt)?)
             }
+            (Inner::BetweenCenters(field), ..) => {
+                let query = FieldQuery::from_points(field.sources()).within(field.limit());
+                return after.fields_of(interrupt)?.make(query);
+            }
             (Inner::AnyAngle(field), Placed::Corners(layers), None) => {
                 let kept = cells.map(|change| field.repaired(Arc::clone(&layers.free), change));
                 match kept.transpose().map_err(told)?.flatten() {
@@ -321,18 +336,20 @@ impl Field {
 
     /// The distance of a vertex to the nearest source, in cells; `None` if no path leads to one, if it is
     /// beyond the limit, or if the vertex is blocked or outside the map. Over N(k) it is the number that
-    /// [`Planner::distance`](crate::Planner::distance) finds. Where cells have costs it is the least cost.
+    /// [`Planner::distance`](crate::Planner::distance) finds. Where cells have costs it is the least cost. At
+    /// any angle a point between vertices has a distance, too; elsewhere it has none.
     #[must_use]
-    pub fn get(&self, at: impl Into<Vertex>) -> Option<f64> {
+    pub fn get(&self, at: impl Into<Point>) -> Option<f64> {
         let at = at.into();
         match &self.inner {
-            Inner::Centers(field) => field.get(at).map(|cost| cost.to_f64()),
-            Inner::Corners(field) => field.get(at).map(|cost| cost.to_f64()),
+            Inner::Centers(field) => field.get(at.vertex()?).map(|cost| cost.to_f64()),
+            Inner::Corners(field) => field.get(at.vertex()?).map(|cost| cost.to_f64()),
             Inner::AnyAngle(field) => field.get(at),
+            Inner::BetweenCenters(field) => field.get(at),
             #[cfg(feature = "costs")]
-            Inner::Costs(field) => field.get(at),
+            Inner::Costs(field) => field.get(at.vertex()?),
             #[cfg(feature = "walking")]
-            Inner::Walking(field) => field.get(at),
+            Inner::Walking(field) => field.get(at.vertex()?),
         }
     }
 
@@ -343,6 +360,7 @@ impl Field {
             Inner::Centers(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
             Inner::Corners(field) => Box::new(field.iter().map(|(at, cost)| (at, cost.to_f64()))),
             Inner::AnyAngle(field) => Box::new(field.iter()),
+            Inner::BetweenCenters(field) => Box::new(field.iter()),
             #[cfg(feature = "costs")]
             Inner::Costs(field) => Box::new(field.iter()),
             #[cfg(feature = "walking")]
@@ -358,6 +376,7 @@ impl Field {
             Inner::Centers(field) => field.lengths().collect(),
             Inner::Corners(field) => field.lengths().collect(),
             Inner::AnyAngle(field) => field.lengths().to_vec(),
+            Inner::BetweenCenters(field) => field.lengths().collect(),
             #[cfg(feature = "costs")]
             Inner::Costs(field) => field.rows().collect(),
             #[cfg(feature = "walking")]
@@ -397,55 +416,66 @@ impl Field {
     /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle
     /// the next corner of an obstacle on it, or the source. There it mostly bends, but it may go straight on,
     /// where its line only touches the corner ([`path_from`](Self::path_from) has waypoints at bends alone).
-    /// `None` at a source, and where there is no distance.
+    /// `None` at a source, and where there is no distance. It is a vertex, unless it is a source between
+    /// vertices.
     #[must_use]
-    pub fn next(&self, at: impl Into<Vertex>) -> Option<Vertex> {
+    pub fn next(&self, at: impl Into<Point>) -> Option<Point> {
         let at = at.into();
-        of_each!(&self.inner, field => field.next(at))
+        match &self.inner {
+            Inner::Centers(field) => field.next(at.vertex()?).map(Point::from),
+            Inner::Corners(field) => field.next(at.vertex()?).map(Point::from),
+            Inner::AnyAngle(field) => field.next(at),
+            Inner::BetweenCenters(field) => field.next(at),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => field.next(at.vertex()?).map(Point::from),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => field.next(at.vertex()?).map(Point::from),
+        }
     }
 
     /// The direction in which that path leaves a vertex, as a vector of length 1, x to the right and y down.
     #[must_use]
-    pub fn direction(&self, at: impl Into<Vertex>) -> Option<(f64, f64)> {
+    pub fn direction(&self, at: impl Into<Point>) -> Option<(f64, f64)> {
         let at = at.into();
         let next = self.next(at)?;
-        let (dx, dy) = (f64::from(next.x) - f64::from(at.x), f64::from(next.y) - f64::from(at.y));
         let length = at.distance(next);
-        Some((dx / length, dy / length))
+        Some(((next.x() - at.x()) / length, (next.y() - at.y()) / length))
     }
 
     /// The shortest path from a vertex to the nearest source; `None` where there is no distance. A field over
     /// elevation that leads [from its sources](Space::field_from) has [`path_to`](Self::path_to) instead.
     #[must_use]
-    pub fn path_from(&self, at: impl Into<Vertex>) -> Option<Path> {
+    pub fn path_from(&self, at: impl Into<Point>) -> Option<Path> {
         let at = at.into();
         match &self.inner {
-            Inner::Centers(field) => field.path_from(at),
-            Inner::Corners(field) => field.path_from(at),
+            Inner::Centers(field) => field.path_from(at.vertex()?),
+            Inner::Corners(field) => field.path_from(at.vertex()?),
             Inner::AnyAngle(field) => field.path_from(at),
+            Inner::BetweenCenters(field) => field.path_from(at),
             #[cfg(feature = "costs")]
-            Inner::Costs(field) => field.path_from(at),
+            Inner::Costs(field) => field.path_from(at.vertex()?),
             #[cfg(feature = "walking")]
-            Inner::Walking(field) => heading::along(field, Heading::ToSources, at),
+            Inner::Walking(field) => heading::along(field, Heading::ToSources, at.vertex()?),
         }
     }
 
     /// The source to which that path leads. Where cells have costs it is, of several that are equally near,
     /// the first one in the list; the path may lead to another one.
     #[must_use]
-    pub fn nearest_source(&self, at: impl Into<Vertex>) -> Option<Vertex> {
+    pub fn nearest_source(&self, at: impl Into<Point>) -> Option<Point> {
         let at = at.into();
         match &self.inner {
-            Inner::Centers(field) => field.nearest_source(at),
-            Inner::Corners(field) => field.nearest_source(at),
+            Inner::Centers(field) => field.nearest_source(at.vertex()?).map(Point::from),
+            Inner::Corners(field) => field.nearest_source(at.vertex()?).map(Point::from),
             Inner::AnyAngle(field) => field.nearest_source(at),
+            Inner::BetweenCenters(field) => field.nearest_source(at),
             #[cfg(feature = "costs")]
-            Inner::Costs(field) => match field.sources() {
-                &[only] => field.cost(at).map(|_| only),
-                sources => sources.get(field.allocation(at)? as usize).copied(),
+            Inner::Costs(field) => match (field.sources(), at.vertex()?) {
+                ([only], at) => field.cost(at).map(|_| only.into()),
+                (sources, at) => sources.get(field.allocation(at)? as usize).map(Point::from),
             },
             #[cfg(feature = "walking")]
-            Inner::Walking(field) => heading::nearest_source(field, at),
+            Inner::Walking(field) => heading::nearest_source(field, at.vertex()?).map(Point::from),
         }
     }
 
@@ -480,6 +510,7 @@ impl fmt::Debug for Fields {
             Makers::Centers(fields) => fields.identity(),
             Makers::Corners(fields) => fields.identity(),
             Makers::AnyAngle(fields) => fields.identity(),
+            Makers::BetweenCenters(fields) => fields.identity(),
             #[cfg(feature = "costs")]
             Makers::Costs(graph, _) => graph.identity(),
             #[cfg(feature = "walking")]

@@ -16,7 +16,7 @@ use crate::{
     engine::Engine,
     engines::Source,
     error::Error,
-    field::{Field, Fields},
+    field::{Field, Fields, Sources},
     goals::Goals,
     index::Index,
     map::Map,
@@ -278,7 +278,7 @@ impl Within<'_, Space> {
     ///
     /// # Errors
     /// As for [`Space::field`], and [`Error::Stopped`].
-    pub fn field<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+    pub fn field<P: Into<Point>>(&self, sources: impl IntoIterator<Item = P>) -> Result<Field, Error> {
         self.field_within(sources, f64::INFINITY)
     }
 
@@ -286,13 +286,12 @@ impl Within<'_, Space> {
     ///
     /// # Errors
     /// As for [`Space::field_within`], and [`Error::Stopped`].
-    pub fn field_within<V: Into<Vertex>>(
+    pub fn field_within<P: Into<Point>>(
         &self,
-        sources: impl IntoIterator<Item = V>,
+        sources: impl IntoIterator<Item = P>,
         limit: f64,
     ) -> Result<Field, Error> {
-        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.of.field_of(&sources, limit, self.limits.interrupt())
+        self.of.field_of(Sources::of(sources).query().within(limit), self.limits.interrupt())
     }
 
     /// [`Space::distances`].

@@ -1,11 +1,14 @@
 //! Distance fields.
 
-use mediant::{DirectionCode, ErrorCode, Ground, PlacementKind, Vertex, names};
+use mediant::{DirectionCode, ErrorCode, Ground, PlacementKind, Point, Vertex, names};
 use mediant_formats::Picture;
-use pyo3::{prelude::*, types::PyBytes};
+use pyo3::{
+    prelude::*,
+    types::{PyBytes, PyTuple},
+};
 
 use crate::{
-    arguments::{vertex, word},
+    arguments::{point as place, word},
     arrays::{PathPoints, png_of, rows_array},
     errors::{exception, raised, wrong_type},
 };
@@ -152,7 +155,7 @@ impl Field {
     /// -------
     /// numpy.ndarray
     ///     The shape of the field and 2, int32: (row, column); a source's own at sources, -1 where no path
-    ///     leads.
+    ///     leads. float64 where a path leads to a point between vertices.
     ///
     /// Examples
     /// --------
@@ -161,12 +164,16 @@ impl Field {
     /// [[0, 1], [0, 2], [0, 2]]
     fn next<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let next = |at: Vertex| match self.inner.next(at) {
-            Some(next) => [next.y, next.x],
-            None if self.inner.get(at).is_some() => [at.y, at.x],
-            None => [-1, -1],
+            Some(next) => next,
+            None if self.inner.get(at).is_some() => at.into(),
+            None => Vertex::new(-1, -1).into(),
         };
-        let flat: Vec<i32> = py.detach(|| self.vertices().flat_map(next).collect());
-        self.planes(&rows_array(py, flat, 2)?)
+        let all: Vec<Point> = py.detach(|| self.vertices().map(next).collect());
+        let whole: Option<Vec<Vertex>> = all.iter().map(|at| at.vertex()).collect();
+        self.planes(&match whole {
+            Some(whole) => rows_array(py, whole.iter().flat_map(|at| [at.y, at.x]).collect(), 2)?,
+            None => rows_array(py, all.iter().flat_map(|at| [at.y(), at.x()]).collect(), 2)?,
+        })
     }
 
     /// The distance of a vertex to the nearest source.
@@ -187,7 +194,7 @@ impl Field {
     /// >>> mediant.Grid.from_rows([".#.", "..."]).field((0, 0), k=2).get((0, 2))
     /// 4.0
     fn get(&self, point: &Bound<'_, PyAny>) -> PyResult<f64> {
-        Ok(self.inner.get(vertex("point", point)?).unwrap_or(f64::INFINITY))
+        Ok(self.inner.get(place("point", point)?).unwrap_or(f64::INFINITY))
     }
 
     /// The shortest path from a vertex to the nearest source.
@@ -220,7 +227,7 @@ impl Field {
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let (py, points) = (point.py(), PathPoints::read(points)?);
         self.check_heading(Heading::To)?;
-        let path = self.inner.path_from(vertex("point", point)?);
+        let path = self.inner.path_from(place("point", point)?);
         path.map(|path| points.array(py, &path, self.inner.identity().rules)).transpose()
     }
 
@@ -256,7 +263,7 @@ impl Field {
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let (py, points) = (point.py(), PathPoints::read(points)?);
         self.check_heading(Heading::From)?;
-        let path = self.inner.path_to(vertex("point", point)?);
+        let path = self.inner.path_to(place("point", point)?);
         path.map(|path| points.array(py, &path, self.inner.identity().rules)).transpose()
     }
 
@@ -270,7 +277,7 @@ impl Field {
     /// Returns
     /// -------
     /// tuple of int or None
-    ///     (row, column) of the source; None where no path leads.
+    ///     (row, column) of the source, of one between vertices floats; None where no path leads.
     ///
     /// Examples
     /// --------
@@ -278,9 +285,13 @@ impl Field {
     /// >>> field = mediant.Grid.from_rows(["....."]).field([(0, 0), (0, 4)])
     /// >>> field.nearest_source((0, 3))
     /// (0, 4)
-    fn nearest_source(&self, point: &Bound<'_, PyAny>) -> PyResult<Option<(i32, i32)>> {
-        let source = self.inner.nearest_source(vertex("point", point)?);
-        Ok(source.map(|at| (at.y, at.x)))
+    fn nearest_source<'py>(&self, point: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyTuple>>> {
+        let source = self.inner.nearest_source(place("point", point)?);
+        let pair = |at: Point| match at.vertex() {
+            Some(at) => (at.y, at.x).into_pyobject(point.py()),
+            None => (at.y(), at.x()).into_pyobject(point.py()),
+        };
+        source.map(pair).transpose()
     }
 
     /// The numbers of the nearest sources: to which of them each vertex belongs.

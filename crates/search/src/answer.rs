@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(told(&nearest, exact), (Status::Nearest, 3.0, f64::INFINITY));
         let none = Answer::Unreachable;
         assert_eq!(told(&none, exact), (Status::Unreachable, f64::INFINITY, f64::INFINITY));
-        let stopped = Answer::Stopped(Stopped::before_search(Limit::Expansions, (1, 1).into()));
+        let stopped = Answer::Stopped(Stopped::before_search(Limit::Expansions, (1, 1)));
         assert!(stopped.distance(exact).is_nan() && stopped.path().is_none());
         assert_eq!((stopped.lower_bound(exact), stopped.status()), (0.0, Status::Stopped));
         assert_eq!(stopped.stopped_by(), Some(Limit::Expansions));

@@ -1,7 +1,7 @@
 //! The answer to a query, and values that go out.
 
 use js_sys::{Float64Array, Int32Array, Object, Reflect};
-use mediant::{Answer, Guarantee, Motion, Path, Point, Rules, Status, Vertex};
+use mediant::{Answer, Guarantee, Motion, Path, Point, Rules, Status};
 use wasm_bindgen::{JsCast, prelude::*};
 
 use crate::types::{JsAnswer, JsMotion, JsWaypoints};
@@ -35,9 +35,10 @@ pub(crate) fn points(points: impl Iterator<Item = Point> + Clone) -> JsWaypoints
     }
 }
 
-/// A vertex as [x, y].
-pub(crate) fn pair(at: Vertex) -> js_sys::Array {
-    js_sys::Array::of2(&at.x.into(), &at.y.into())
+/// A point as [x, y].
+pub(crate) fn pair(at: impl Into<Point>) -> js_sys::Array {
+    let at = at.into();
+    js_sys::Array::of2(&at.x().into(), &at.y().into())
 }
 
 thread_local! {

@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::{
     answer::{flat, pair},
-    arguments::{Points, positive, room, vertex},
+    arguments::{Points, point, positive, room},
     errors::raised_for,
     listening::{Listening, tell},
     memory,
@@ -67,7 +67,7 @@ impl Field {
 
     /// The distance of a vertex in cells; `Infinity` where no path leads.
     pub fn get(&self, #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue) -> Result<f64, JsValue> {
-        Ok(self.inner.get(vertex("at", at)?).unwrap_or(f64::INFINITY))
+        Ok(self.inner.get(point("at", at)?).unwrap_or(f64::INFINITY))
     }
 
     /// The vertex to which the shortest path leads next: one move away; at any angle the next corner of an
@@ -78,7 +78,7 @@ impl Field {
         &self,
         #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let next = self.inner.next(vertex("at", at)?);
+        let next = self.inner.next(point("at", at)?);
         Ok(next.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
@@ -88,7 +88,7 @@ impl Field {
         &self,
         #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
     ) -> Result<Option<JsWaypoints>, JsValue> {
-        Ok(self.inner.path_from(vertex("at", at)?).as_ref().map(flat))
+        Ok(self.inner.path_from(point("at", at)?).as_ref().map(flat))
     }
 
     /// The source that is nearest to a vertex; undefined where no path leads.
@@ -97,7 +97,7 @@ impl Field {
         &self,
         #[wasm_bindgen(unchecked_param_type = "Point")] at: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        let source = self.inner.nearest_source(vertex("at", at)?);
+        let source = self.inner.nearest_source(point("at", at)?);
         Ok(source.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
@@ -129,7 +129,7 @@ impl Space {
         #[wasm_bindgen(unchecked_optional_param_type = "(done: number, total: number) => void")]
         progress: &JsValue,
     ) -> Result<Field, JsValue> {
-        let sources = Points::read("sources", sources)?.into_vertices("sources")?;
+        let sources = Points::read("sources", sources)?;
         self.check_room("the field", memory::FIELD)?;
         let sources = sources.as_slice().iter().copied();
         let none = limit.is_undefined() || limit.is_null();

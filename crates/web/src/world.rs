@@ -100,7 +100,7 @@ impl World {
         #[wasm_bindgen(unchecked_optional_param_type = "\"center\" | \"corner\"")] placement: &JsValue,
     ) -> Result<JsValue, JsValue> {
         let at = self.frame.place_at(kind(placement)?, number("x", x)?, number("y", y)?);
-        Ok(at.map_or(JsValue::UNDEFINED, |at| js_sys::Array::of2(&at.x().into(), &at.y().into()).into()))
+        Ok(at.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
     /// The places of vertices in the world, such as those of a path: x, y, … in meters.

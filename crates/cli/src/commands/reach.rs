@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use mediant::{Error, Field, K, Motion, Vertex, errors::QueryError, search::End};
+use mediant::{Error, Field, K, Motion, Point, Vertex, errors::QueryError, search::End};
 use mediant_formats::{Picture, Surface, SurfaceFormat};
 
 use crate::{
@@ -73,10 +73,10 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         outputs.iter().filter(|(_, form)| *form != Form::Printed).map(|(path, _)| *path).collect();
     check_outputs(&args.map.map, args.costs.inputs().chain(args.walking.inputs()), &written)?;
     let placement = motion.rules.placement();
-    let vertices = |places: &[Place]| -> Result<Vec<Vertex>, Failure> {
-        places.iter().map(|&place| map.vertex(placement, place)).collect()
+    let ends = |places: &[Place]| -> Result<Vec<Point>, Failure> {
+        places.iter().map(|&place| map.end(motion, place)).collect()
     };
-    let (from, to) = (vertices(&args.from)?, vertices(&args.to)?);
+    let (from, to) = (ends(&args.from)?, ends(&args.to)?);
     let limit = args.within.map(|cost| if map.has_costs() { cost } else { map.cells(cost) });
     let space = map.space(motion)?;
     let greatest = limit.unwrap_or(f64::INFINITY);
@@ -122,7 +122,8 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         }
         let (places, sources) = ([&args.from[..], &args.to].concat(), [from, to].concat());
         if let Some(moved) = map.moved(placement, &places, &sources).filter(|&moved| moved > 0.0) {
-            writeln!(screen, "  moved to vertices: the sources by at most {moved:.3} m")?;
+            let to = if motion.k == K::Any { "multiples of 1/1024 of a cell" } else { "vertices" };
+            writeln!(screen, "  moved to {to}: the sources by at most {moved:.3} m")?;
         }
     }
     Ok(Ending::Answered)
@@ -197,12 +198,12 @@ fn surface(map: &NamedMap, field: &Field, values: &Values) -> Result<Surface, Fa
 fn picture<'m>(map: &'m NamedMap, motion: Motion, field: &Field, values: &Values) -> Picture<'m> {
     Picture::new(&map.ground, motion.rules.placement())
         .field(|at| values.get(field, at))
-        .starts(field.sources().iter().copied())
+        .starts(field.sources())
         .caption(format!("{}: {motion}", printable(&map.name)))
 }
 
 /// One place in words, or how many there are.
-fn in_words(places: &[Vertex], name: &str) -> String {
+fn in_words(places: &[Point], name: &str) -> String {
     match places {
         [only] => only.to_string(),
         _ => format!("{} {name}", grouped(places.len() as u64)),
@@ -214,7 +215,7 @@ fn corridor_summary(
     map: &NamedMap,
     motion: Motion,
     values: &Values,
-    [from, to]: [&[Vertex]; 2],
+    [from, to]: [&[Point]; 2],
     screen: &mut Screen,
 ) -> io::Result<()> {
     let known = || values.rows.iter().copied().filter(|cost| cost.is_finite());
@@ -234,7 +235,7 @@ fn summary(
     map: &NamedMap,
     motion: Motion,
     field: &Field,
-    (way, sources): (&str, &[Vertex]),
+    (way, sources): (&str, &[Point]),
     limit: Option<f64>,
     screen: &mut Screen,
 ) -> io::Result<()> {

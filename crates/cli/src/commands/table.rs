@@ -7,7 +7,7 @@ use std::{
 };
 
 use mediant::{
-    Choice, Demand, Error, Index, PlacementKind, Vertex,
+    Choice, Demand, Error, Index, Motion, Point,
     options::{EngineName, EngineOption, ValueKind},
 };
 use serde::Serialize;
@@ -36,10 +36,10 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
     let map = NamedMap::load_ground(&args.map, args.costs.reading)?.without_tiles();
     let map = map.for_agent(&args.map, asked.motion)?;
     let map = map.with_numbers(&args.map, &args.costs, &args.walking)?;
-    let placement = asked.motion.rules.placement();
     let (starts, starts_moved) =
-        ends(&map, placement, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
-    let (goals, goals_moved) = ends(&map, placement, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
+        ends(&map, asked.motion, (&args.from, args.from_file.as_deref()), ("starts", "--from"))?;
+    let (goals, goals_moved) =
+        ends(&map, asked.motion, (&args.to, args.to_file.as_deref()), ("goals", "--to"))?;
     let begin = Instant::now();
     let space = map.space(asked.motion)?;
     let pairs = Demand::Paths(starts.len() as u64 * goals.len() as u64);
@@ -49,7 +49,7 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
     let measured = match measure(args.nearest, &index, &starts, &goals) {
         Ok(measured) => measured,
         Err(Error::Query(error)) => {
-            return Ok(Ending::QueryErrors(explain(error, &map, placement)));
+            return Ok(Ending::QueryErrors(explain(error, &map, asked.motion.rules.placement())));
         }
         Err(error) => return Err(error.into()),
     };
@@ -95,10 +95,10 @@ impl MeasuredLengths {
 /// [distance](NamedMap::moved) from the places that were asked for.
 fn ends(
     map: &NamedMap,
-    placement: PlacementKind,
+    motion: Motion,
     (named, file): (&[Place], Option<&Path>),
     (ends, option): (&'static str, &'static str),
-) -> Result<(Vec<Vertex>, Option<f64>), Failure> {
+) -> Result<(Vec<Point>, Option<f64>), Failure> {
     let mut places = named.to_vec();
     if let Some(path) = file {
         for (line, text) in lines(&bytes(path)?) {
@@ -110,8 +110,8 @@ fn ends(
     if places.is_empty() {
         return Err(Failure::NoEnds { ends, option });
     }
-    let at = places.iter().map(|&place| map.vertex(placement, place)).collect::<Result<Vec<_>, _>>()?;
-    let moved = map.moved(placement, &places, &at);
+    let at = places.iter().map(|&place| map.end(motion, place)).collect::<Result<Vec<_>, _>>()?;
+    let moved = map.moved(motion.rules.placement(), &places, &at);
     Ok((at, moved))
 }
 
@@ -126,8 +126,8 @@ enum MeasuredLengths {
 fn measure(
     nearest: bool,
     index: &Index,
-    starts: &[Vertex],
-    goals: &[Vertex],
+    starts: &[Point],
+    goals: &[Point],
 ) -> Result<MeasuredLengths, Error> {
     if !nearest {
         return index.table(starts.iter().copied(), goals.iter().copied()).map(MeasuredLengths::All);
@@ -144,8 +144,8 @@ struct LengthReport<'r> {
     index: &'r Index,
     /// The choice of `auto`.
     choice: Option<Choice>,
-    starts: Vec<Vertex>,
-    goals: Vec<Vertex>,
+    starts: Vec<Point>,
+    goals: Vec<Point>,
     /// The greatest distances of starts and of goals from their vertices, in meters; with `--world`.
     moved: Option<[f64; 2]>,
     measured: MeasuredLengths,
@@ -181,7 +181,7 @@ struct TableLine<'r> {
 #[derive(Serialize)]
 #[serde(tag = "type", rename = "row")]
 struct RowLine {
-    start: [i32; 2],
+    start: Point,
     #[serde(flatten)]
     found: RowFound,
 }
@@ -194,7 +194,7 @@ enum RowFound {
         distances: Vec<Option<f64>>,
     },
     /// All are `null` if there is no way to any goal.
-    Nearest { goal: Option<[i32; 2]>, number: Option<usize>, distance: Option<f64> },
+    Nearest { goal: Option<Point>, number: Option<usize>, distance: Option<f64> },
 }
 
 /// The last line.
@@ -230,13 +230,13 @@ impl LengthReport<'_> {
                 MeasuredLengths::Nearest(nearest) => {
                     let nearest = nearest.get(row).copied().flatten();
                     RowFound::Nearest {
-                        goal: nearest.map(|(goal, _)| [goals[goal].x, goals[goal].y]),
+                        goal: nearest.map(|(goal, _)| goals[goal]),
                         number: nearest.map(|(goal, _)| goal),
                         distance: nearest.map(|(_, length)| length),
                     }
                 }
             };
-            line(screen, &RowLine { start: [start.x, start.y], found })?;
+            line(screen, &RowLine { start: *start, found })?;
         }
         line(screen, &SummaryLine { nanos: took.as_nanos() as u64 })
     }
@@ -249,15 +249,15 @@ impl LengthReport<'_> {
                     for (goal, &length) in self.goals.iter().zip(table.row(row)) {
                         let length =
                             finite(length).map_or_else(String::new, |length| rounded(length).to_string());
-                        writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
+                        writeln!(screen, "{},{},{},{},{length}", start.x(), start.y(), goal.x(), goal.y())?;
                     }
                 }
                 MeasuredLengths::Nearest(nearest) => match nearest.get(row).copied().flatten() {
                     Some((goal, length)) => {
                         let (goal, length) = (self.goals[goal], rounded(length));
-                        writeln!(screen, "{},{},{},{},{length}", start.x, start.y, goal.x, goal.y)?;
+                        writeln!(screen, "{},{},{},{},{length}", start.x(), start.y(), goal.x(), goal.y())?;
                     }
-                    None => writeln!(screen, "{},{},,,", start.x, start.y)?,
+                    None => writeln!(screen, "{},{},,,", start.x(), start.y())?,
                 },
             }
         }
@@ -270,7 +270,7 @@ impl LengthReport<'_> {
         let (columns, heads) = match &self.measured {
             MeasuredLengths::All(_) => {
                 let columns = self.goals.len().min((screen.columns().saturating_sub(16) / 14).max(1));
-                let goals = self.goals[..columns].iter().map(|&goal| (vertex(goal), Align::Right));
+                let goals = self.goals[..columns].iter().map(|&goal| (goal.to_string(), Align::Right));
                 (columns, [("start".to_owned(), Align::Left)].into_iter().chain(goals).collect())
             }
             MeasuredLengths::Nearest(_) => {
@@ -280,7 +280,7 @@ impl LengthReport<'_> {
         };
         let mut table = TextTable::new::<String>(heads);
         for (row, &start) in self.starts.iter().enumerate().take(ROWS) {
-            table.row([vertex(start)].into_iter().chain(self.cells(row, columns)).collect::<Vec<_>>());
+            table.row([start.to_string()].into_iter().chain(self.cells(row, columns)).collect::<Vec<_>>());
         }
         table.write(screen)?;
         let more = [
@@ -331,7 +331,7 @@ impl LengthReport<'_> {
                 table.row(row).iter().take(columns).map(|&length| shown(length)).collect()
             }
             MeasuredLengths::Nearest(nearest) => match nearest.get(row).copied().flatten() {
-                Some((goal, length)) => vec![vertex(self.goals[goal]), shown(length)],
+                Some((goal, length)) => vec![self.goals[goal].to_string(), shown(length)],
                 None => vec!["no way to any".to_owned()],
             },
         }
@@ -350,9 +350,4 @@ fn line(screen: &mut Screen, record: &impl Serialize) -> io::Result<()> {
 /// A length; `None` where there is no way.
 fn finite(length: f64) -> Option<f64> {
     Some(length).filter(|length| length.is_finite())
-}
-
-/// A vertex as `(x, y)`.
-fn vertex(at: Vertex) -> String {
-    format!("({}, {})", at.x, at.y)
 }

@@ -5,7 +5,7 @@ use std::{
     path::Path,
 };
 
-use mediant::{Demand, Error, Vertex};
+use mediant::{Demand, Error, Point, Vertex};
 
 use super::query_error::explain;
 use crate::{
@@ -53,10 +53,12 @@ pub(crate) fn write(
 
 /// The first of the vertices that are furthest away; without a distance above 0 the one that is given.
 pub(crate) fn furthest(
-    from: (Vertex, f64),
+    from: (impl Into<Point>, f64),
     distances: impl IntoIterator<Item = (Vertex, f64)>,
-) -> (Vertex, f64) {
-    distances.into_iter().fold(from, |a, b| if b.1 > a.1 { b } else { a })
+) -> (Point, f64) {
+    let (from, known) = from;
+    let distances = distances.into_iter().map(|(at, distance)| (Point::from(at), distance));
+    distances.fold((from.into(), known), |a, b| if b.1 > a.1 { b } else { a })
 }
 
 /// Writes numbers with a name, a line for each vertex.

@@ -6,7 +6,7 @@ use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph};
 use mediant_grid::Interrupt;
 use mediant_search::{FieldQuery, QueryError};
 
-use super::{Field, Inner};
+use super::{Field, Inner, sources::vertices};
 use crate::{change::Change, error::Error, memory_check};
 
 /// A field of costs. With one source that is the nearest to all; of several it is written down which is.
@@ -15,8 +15,9 @@ pub(super) fn on_costs(
     query: FieldQuery<'_>,
     interrupt: &Interrupt,
 ) -> Result<Field, Error> {
-    let has_several = query.sources.len() > 1;
-    let query = CostFieldQuery::new(query.sources).within(query.limit);
+    let sources = vertices(&query)?;
+    let has_several = sources.len() > 1;
+    let query = CostFieldQuery::new(sources).within(query.limit);
     let query = if has_several { query.with_allocation() } else { query };
     memory_check::check("the field", CostField::bytes(graph, has_several) as u64)?;
     let field = CostField::on_threads(Arc::clone(graph), query, threads, interrupt).map_err(told)?;
@@ -34,7 +35,7 @@ pub(super) fn repaired(field: &CostField, change: &Change, interrupt: &Interrupt
             return Ok(Field { inner: Inner::Costs(field) });
         }
     }
-    after.field_of(query.sources, query.limit, interrupt)
+    after.field_of(FieldQuery::new(query.sources).within(query.limit), interrupt)
 }
 
 /// The error of a field of costs as one of the library.

@@ -5,14 +5,12 @@ use std::sync::Arc;
 
 #[cfg(feature = "walking")]
 use mediant_costs::{CostFieldQuery, Heading, WalkingField, WalkingGraph};
-use mediant_grid::{Interrupt, Vertex};
-#[cfg(feature = "walking")]
-use mediant_search::FieldQuery;
-use mediant_search::Path;
+use mediant_grid::{Interrupt, Point, Vertex};
+use mediant_search::{FieldQuery, Path};
 
-use super::Field;
+use super::{Field, Sources};
 #[cfg(feature = "walking")]
-use super::Inner;
+use super::{Inner, sources::vertices};
 #[cfg(feature = "walking")]
 use crate::memory_check;
 use crate::{error::Error, never::NEVER, space::Space, within::Within};
@@ -24,7 +22,7 @@ impl Space {
     ///
     /// # Errors
     /// As for [`field`](Self::field).
-    pub fn field_from<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+    pub fn field_from<P: Into<Point>>(&self, sources: impl IntoIterator<Item = P>) -> Result<Field, Error> {
         self.field_from_within(sources, f64::INFINITY)
     }
 
@@ -33,13 +31,12 @@ impl Space {
     ///
     /// # Errors
     /// As for [`field_within`](Self::field_within).
-    pub fn field_from_within<V: Into<Vertex>>(
+    pub fn field_from_within<P: Into<Point>>(
         &self,
-        sources: impl IntoIterator<Item = V>,
+        sources: impl IntoIterator<Item = P>,
         limit: f64,
     ) -> Result<Field, Error> {
-        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.field_from_of(&sources, limit, &NEVER)
+        self.field_from_by(Sources::of(sources).query().within(limit), &NEVER)
     }
 
     pub(crate) fn field_from_of(
@@ -48,12 +45,15 @@ impl Space {
         limit: f64,
         interrupt: &Interrupt,
     ) -> Result<Field, Error> {
+        self.field_from_by(FieldQuery::new(sources).within(limit), interrupt)
+    }
+
+    fn field_from_by(&self, query: FieldQuery<'_>, interrupt: &Interrupt) -> Result<Field, Error> {
         #[cfg(feature = "walking")]
         if let Some(walk) = self.walk() {
-            let query = FieldQuery::new(sources).within(limit);
             return over_elevation(&walk.graph, Heading::FromSources, query, interrupt);
         }
-        self.field_of(sources, limit, interrupt)
+        self.field_of(query, interrupt)
     }
 }
 
@@ -62,7 +62,7 @@ impl Within<'_, Space> {
     ///
     /// # Errors
     /// As for [`Space::field_from`], and [`Error::Stopped`].
-    pub fn field_from<V: Into<Vertex>>(&self, sources: impl IntoIterator<Item = V>) -> Result<Field, Error> {
+    pub fn field_from<P: Into<Point>>(&self, sources: impl IntoIterator<Item = P>) -> Result<Field, Error> {
         self.field_from_within(sources, f64::INFINITY)
     }
 
@@ -70,13 +70,12 @@ impl Within<'_, Space> {
     ///
     /// # Errors
     /// As for [`Space::field_from_within`], and [`Error::Stopped`].
-    pub fn field_from_within<V: Into<Vertex>>(
+    pub fn field_from_within<P: Into<Point>>(
         &self,
-        sources: impl IntoIterator<Item = V>,
+        sources: impl IntoIterator<Item = P>,
         limit: f64,
     ) -> Result<Field, Error> {
-        let sources: Vec<Vertex> = sources.into_iter().map(Into::into).collect();
-        self.of.field_from_of(&sources, limit, self.limits.interrupt())
+        self.of.field_from_by(Sources::of(sources).query().within(limit), self.limits.interrupt())
     }
 }
 
@@ -85,10 +84,11 @@ impl Field {
     /// In a space to walk on, a field [from its sources](Space::field_from) has these paths alone, and one to
     /// them has the others; `None` in the other one, and where there is no distance.
     #[must_use]
-    pub fn path_to(&self, at: impl Into<Vertex>) -> Option<Path> {
+    pub fn path_to(&self, at: impl Into<Point>) -> Option<Path> {
+        let at = at.into();
         #[cfg(feature = "walking")]
         if let Inner::Walking(field) = &self.inner {
-            return along(field, Heading::FromSources, at.into());
+            return along(field, Heading::FromSources, at.vertex()?);
         }
         self.path_from(at).map(|path| path.reversed())
     }
@@ -102,8 +102,9 @@ pub(super) fn over_elevation(
     query: FieldQuery<'_>,
     interrupt: &Interrupt,
 ) -> Result<Field, Error> {
-    let has_several = query.sources.len() > 1;
-    let query = CostFieldQuery::new(query.sources).within(query.limit);
+    let sources = vertices(&query)?;
+    let has_several = sources.len() > 1;
+    let query = CostFieldQuery::new(sources).within(query.limit);
     let query = if has_several { query.with_allocation() } else { query };
     memory_check::check("the field", WalkingField::bytes(graph, has_several) as u64)?;
     let field = WalkingField::new(Arc::clone(graph), heading, query, interrupt)?;
@@ -116,7 +117,7 @@ pub(super) fn again(field: &WalkingField, after: &Space, interrupt: &Interrupt) 
     let CostFieldQuery { sources, limit, .. } = field.query();
     match field.heading() {
         Heading::FromSources => after.field_from_of(sources, limit, interrupt),
-        Heading::ToSources => after.field_of(sources, limit, interrupt),
+        Heading::ToSources => after.field_of(FieldQuery::new(sources).within(limit), interrupt),
     }
 }
 

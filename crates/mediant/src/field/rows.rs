@@ -4,9 +4,19 @@ use std::collections::HashMap;
 
 #[cfg(feature = "costs")]
 use mediant_costs::DirectionCode;
-use mediant_grid::Vertex;
+#[cfg(feature = "costs")]
+use mediant_grid::Vector;
+use mediant_grid::{Point, Vertex};
 
-use super::{Field, Inner, of_each};
+use super::{Field, Inner};
+
+/// A vector in the direction of a point between vertices, in halves of its parts: longer than each move.
+#[cfg(feature = "costs")]
+fn halves(from: Vertex, to: Point) -> Vector {
+    let ((from_x, from_y), (to_x, to_y)) = (Point::from(from).parts(), to.parts());
+    let halves = |from: i64, to: i64| 2 * (to - from) as i32;
+    Vector::new(halves(from_x, to_x), halves(from_y, to_y))
+}
 
 /// The number of a vertex whose source is not known yet.
 const UNKNOWN: u32 = u32::MAX;
@@ -14,8 +24,17 @@ const UNKNOWN: u32 = u32::MAX;
 impl Field {
     /// The sources, in the order in which they were given.
     #[must_use]
-    pub fn sources(&self) -> &[Vertex] {
-        of_each!(&self.inner, field => field.query().sources)
+    pub fn sources(&self) -> Vec<Point> {
+        match &self.inner {
+            Inner::Centers(field) => field.query().all_sources().collect(),
+            Inner::Corners(field) => field.query().all_sources().collect(),
+            Inner::AnyAngle(field) => field.query().all_sources().collect(),
+            Inner::BetweenCenters(field) => field.sources().to_vec(),
+            #[cfg(feature = "costs")]
+            Inner::Costs(field) => field.query().sources.iter().map(Point::from).collect(),
+            #[cfg(feature = "walking")]
+            Inner::Walking(field) => field.query().sources.iter().map(Point::from).collect(),
+        }
     }
 
     /// [`lengths`](Self::lengths) of a field that is not needed any more. Where cells have costs no second
@@ -51,8 +70,13 @@ impl Field {
             return self.vertices().map(source).collect();
         }
         let mut sources = HashMap::new();
-        for (number, &at) in (0..).zip(self.sources()) {
+        for (number, at) in (0..).zip(self.sources()) {
             sources.entry(at).or_insert(number);
+        }
+        if let Inner::BetweenCenters(field) = &self.inner {
+            // The way leads over corners.
+            let source = |at: Vertex| sources.get(&field.nearest_source(at.into())?).copied();
+            return self.vertices().map(source).collect();
         }
         let mut found = vec![UNKNOWN; self.width() as usize * self.height() as usize];
         let mut on_the_way = Vec::new();
@@ -65,10 +89,15 @@ impl Field {
                     break known;
                 }
                 on_the_way.push(at);
-                match self.next(at) {
-                    Some(next) => at = next,
-                    None => break sources.get(&at).copied().unwrap_or(UNKNOWN),
-                }
+                let end = match self.next(at).map(|next| (next, next.vertex())) {
+                    Some((_, Some(next))) => {
+                        at = next;
+                        continue;
+                    }
+                    Some((between, None)) => between,
+                    None => at.into(),
+                };
+                break sources.get(&end).copied().unwrap_or(UNKNOWN);
             };
             on_the_way.drain(..).for_each(|at| found[number(at)] = source);
         }
@@ -94,14 +123,13 @@ impl Field {
     #[must_use]
     pub fn directions(&self, code: DirectionCode) -> Vec<f64> {
         let direction = |at: Vertex| match self.next(at) {
-            Some(next) => code.of(at.to(next)),
+            Some(next) => code.of(next.vertex().map_or_else(|| halves(at, next), |next| at.to(next))),
             None => self.get(at).and_then(|_| code.of_source()),
         };
         self.vertices().map(|at| direction(at).unwrap_or(f64::NAN)).collect()
     }
 
     /// All vertices, row by row.
-    #[cfg(feature = "costs")]
     fn vertices(&self) -> impl Iterator<Item = Vertex> + use<> {
         let (width, height) = (self.width() as i32, self.height() as i32);
         (0..height).flat_map(move |y| (0..width).map(move |x| Vertex::new(x, y)))

@@ -5,7 +5,8 @@ use mediant::{
     Rules, Setup, Vertex,
 };
 use mediant_oracle::{
-    PointVisibility, Rng, describe, magnified, random_free_vertex, random_vertex, seeds, suite_grid,
+    PointVisibility, Rng, describe, magnified, random_free_point, random_free_vertex, random_vertex, seeds,
+    suite_grid,
 };
 
 const GAPS: [DiagonalGap; 2] = [DiagonalGap::Open, DiagonalGap::Closed];
@@ -221,4 +222,70 @@ fn rules_of_the_other_motion_are_refused() {
         assert_eq!((setup.to_string().as_str(), setup.motion), (text, motion(gap)));
     }
     assert!("astar:3:center-open".parse::<Setup>().is_err() && "anya:any:never".parse::<Setup>().is_err());
+}
+
+#[test]
+fn fields_lead_from_centers_to_sources_anywhere() {
+    let mut known = 0;
+    for (seed, gap) in seeds(40).flat_map(|seed| GAPS.map(|gap| (seed, gap))) {
+        let (grid, mut rng) = (suite_grid(seed).0, Rng::new(seed));
+        let oracle = PointVisibility::new(&grid, gap);
+        let space = Map::from(grid.clone()).space(motion(gap)).expect("any angle between centers");
+        let (Some(vertex), Some(point)) = (
+            random_free_vertex(&mut rng, &grid, mediant::PlacementKind::Center),
+            random_free_point(&mut rng, &grid),
+        ) else {
+            continue;
+        };
+        let sources = [Point::from(vertex), Point::from_parts(point.0, point.1).at_centers()];
+        let field = space.field(sources).expect("two free sources");
+        assert_eq!((field.sources(), field.identity()), (sources.to_vec(), space.identity()));
+        let (lengths, allocation) = (field.lengths(), field.allocation());
+        assert_eq!(lengths.len(), (field.width() * field.height()) as usize);
+        let mut told = field.iter();
+        for y in 0..field.height() as i32 {
+            for x in 0..field.width() as i32 {
+                let (at, number) = (Vertex::new(x, y), (y * field.width() as i32 + x) as usize);
+                let costs = sources.map(|source| match grid.is_free(x, y) {
+                    true => oracle.cost(parts(at), source.at_corners().parts()),
+                    false => None,
+                });
+                let expected = costs.into_iter().flatten().min_by(f64::total_cmp);
+                let case = describe(&grid, Rules::CenterGap(gap), at, vertex, seed);
+                let found = field.get(at);
+                assert!(is_same(found, expected), "{found:?}, not {expected:?} from {point:?}; {case}");
+                assert_eq!(lengths[number], found.unwrap_or(f64::INFINITY), "{case}");
+                let Some(found) = found else {
+                    assert_eq!((field.path_from(at), allocation[number]), (None, None), "{case}");
+                    continue;
+                };
+                assert_eq!(told.next(), Some((at, found)), "{case}");
+                let path = field.path_from(at).expect("it has a distance");
+                assert!(is_same(Some(path.length()), Some(found)), "{path}: {found}; {case}");
+                assert_eq!((space.check(&path), path.start()), (Ok(()), Some(at.into())), "{path}; {case}");
+                assert_eq!(path.goal(), field.nearest_source(at), "{path}; {case}");
+                let source = allocation[number].map(|source| sources[source as usize]);
+                assert_eq!(source, path.goal(), "{path}; {case}");
+                known += 1;
+            }
+        }
+        assert_eq!(told.next(), None, "seed {seed}");
+        let limited = space.field_within(sources, 2.5).expect("a limit");
+        let within = lengths.iter().filter(|&&length| length <= 2.5 * (1.0 + 1e-9)).count();
+        assert_eq!(limited.iter().count(), within, "seed {seed}");
+        // After an edit it is made anew.
+        let cell = (rng.below(grid.width()) as i32, rng.below(grid.height()) as i32);
+        let change = space.edit_cells([(cell, true)]).expect("a cell of the map");
+        match (field.repair(&change), change.after().field(sources)) {
+            (Ok(repaired), Ok(anew)) => assert_eq!(repaired.lengths(), anew.lengths(), "seed {seed}"),
+            (Err(one), Err(other)) => assert_eq!(one.code(), other.code(), "seed {seed}"),
+            (one, other) => panic!("{one:?}, {other:?}, seed {seed}"),
+        }
+    }
+    assert!(known > 2_000, "{known}");
+    let space = Map::from_rows(["..#"]).expect("a map").space(Motion::centers(K::ANY)).expect("any angle");
+    for source in [(2.0, 0.0), (9.0, 0.0), (2.25, 0.0)] {
+        let error = space.field([source]).unwrap_err();
+        assert!(error.to_string().contains(&Point::from(source).to_string()), "{error}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Fields of a space are the distances of single paths; the same for maps of agents and widest paths.
 
 use mediant::{
-    Change, Ends, Engine, ErrorCode, Field, K, Map, Motion, Query, Rectangle, Setup, Space, Vertex,
+    Change, Ends, Engine, ErrorCode, Field, K, Map, Motion, Point, Query, Rectangle, Setup, Space, Vertex,
     grid::{Fit, Outside},
 };
 use mediant_grid::Rules;
@@ -54,7 +54,7 @@ fn a_field_is_the_distances_of_paths() {
                 let Some(path) = field.path_from(at) else { continue };
                 assert!((path.cost() - found).abs() <= 1e-8 * (1.0 + found), "{}", text());
                 assert_eq!(space.check(&path), Ok(()), "{}", text());
-                assert_eq!(path.waypoints().last().copied(), field.nearest_source(at), "{}", text());
+                assert_eq!(path.goal(), field.nearest_source(at), "{}", text());
                 assert_eq!(field.next(at).is_none(), sources.contains(&at), "{}", text());
                 assert!(
                     field.direction(at).is_none_or(|(x, y)| (x.hypot(y) - 1.0).abs() < 1e-12),
@@ -195,7 +195,7 @@ fn every_engine_takes_an_agents_map() {
 }
 
 /// All that a field says of its vertices.
-fn all(field: &Field) -> (Vec<f64>, Vec<Option<Vertex>>) {
+fn all(field: &Field) -> (Vec<f64>, Vec<Option<Point>>) {
     let next = field.iter().map(|(at, _)| field.next(at)).collect();
     (field.lengths(), next)
 }

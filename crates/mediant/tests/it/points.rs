@@ -1,7 +1,12 @@
 //! Ends anywhere at the door: by every engine at any angle, with all wishes, in steps, after edits.
 
-use mediant::{Answer, DiagonalGap, Engine, K, Limit, Limits, Map, Motion, Point, Query, errors::QueryError};
-use mediant_oracle::{PointVisibility, Rng, describe_points, random_free_point, seeds, suite_grid};
+use mediant::{
+    Answer, Change, DiagonalGap, DirectionCode, Engine, ErrorCode, K, Limit, Limits, Map, Motion, Point,
+    Query, errors::QueryError,
+};
+use mediant_oracle::{
+    PointVisibility, Rng, describe_points, random_change, random_free_point, seeds, suite_grid,
+};
 
 fn point((x, y): (i64, i64)) -> Point {
     Point::from_parts(x, y)
@@ -122,4 +127,120 @@ fn over_moves_and_between_centers_points_are_refused() {
         }
         assert!(planner.distance(((0, 0), (1, 0.5))).is_err());
     }
+}
+
+/// Distances, paths, allocation and directions, from points and vertices mixed, in a space and within limits.
+#[test]
+fn fields_from_points_are_the_distances_of_paths() {
+    let (mut reached, mut far) = ([0; 2], 0);
+    for (seed, gap) in
+        seeds(40).flat_map(|seed| [DiagonalGap::Open, DiagonalGap::Closed].map(|gap| (seed, gap)))
+    {
+        let (grid, mut rng) = (suite_grid(seed).0, Rng::new(seed));
+        let oracle = PointVisibility::new(&grid, gap);
+        let space = Map::from(grid.clone()).space(Motion::new(K::ANY, gap)).expect("any angle");
+        let sources: Vec<_> = (0..3).filter_map(|_| random_free_point(&mut rng, &grid)).collect();
+        let Some(&first) = sources.first() else { continue };
+        let case = format!("from {sources:?}: {}", describe_points(&grid, gap, first, first, seed));
+        let from: Vec<Point> = sources.iter().copied().map(point).collect();
+        let costs: Vec<_> = sources.iter().map(|&source| oracle.costs_from(source)).collect();
+        let field = space.field(&from).expect("free sources");
+        assert_eq!(field.sources(), from, "{case}");
+        let (width, height) = (field.width() as i32, field.height() as i32);
+        let vertices = (0..height).flat_map(|y| (0..width).map(move |x| Point::from((x, y))));
+        let asked = (0..10).filter_map(|_| random_free_point(&mut rng, &grid)).map(point);
+        let allocation = field.allocation();
+        let directions = field.directions(DirectionCode::ArcGisDegrees);
+        let same = |a: Option<f64>, b: Option<f64>| {
+            a.zip(b).map_or(a == b, |(a, b)| (a - b).abs() <= 1e-9 * b.max(1e-9))
+        };
+        for (number, at) in vertices.chain(asked).enumerate() {
+            let best = costs.iter().filter_map(|costs| costs.to(parts(at))).min_by(f64::total_cmp);
+            assert!(same(field.get(at), best), "{at}: {:?}, not {best:?}; {case}", field.get(at));
+            let (path, back) = (field.path_from(at), field.path_to(at));
+            assert!(same(path.as_ref().map(|path| path.cost()), best), "{at}; {case}");
+            assert_eq!(back.map(|path| path.reversed()), path, "{at}; {case}");
+            let source = field.nearest_source(at);
+            assert_eq!(path.as_ref().and_then(|path| path.goal()), source, "{at}; {case}");
+            if let Some(path) = &path {
+                assert_eq!(space.check(path), Ok(()), "{path}; {case}");
+                assert_eq!(field.next(at).is_some(), path.len() > 1, "{path}; {case}");
+                reached[usize::from(at.vertex().is_none())] += 1;
+            }
+            if let Some(&known) = allocation.get(number) {
+                let known = known.map(|number| from[number as usize]);
+                assert_eq!(known, source, "{at}; {case}");
+                let degrees = |(x, y): (f64, f64)| x.atan2(-y).to_degrees().rem_euclid(360.0);
+                let expected = field.direction(at).map(degrees);
+                let told = Some(directions[number]).filter(|_| field.next(at).is_some());
+                let turn = |a: f64, b: f64| ((a - b + 180.0).rem_euclid(360.0) - 180.0).abs();
+                let is_same = told.zip(expected).map_or(told == expected, |(a, b)| turn(a, b) < 1e-6);
+                assert!(is_same, "{at}: {told:?}, not {expected:?}; {case}");
+            }
+        }
+        let Some(limit) = field.iter().map(|(_, length)| length * 0.5).reduce(f64::max) else { continue };
+        let cancelled = Limits::new().cancel(Default::default());
+        let near = space.within(cancelled).field_within(&from, limit).expect("free sources");
+        let within = field.iter().filter(|&(_, length)| length <= limit * (1.0 + 2_f64.powi(-31)));
+        assert!(near.iter().eq(within), "within {limit}; {case}");
+        far += field.iter().count() - near.iter().count();
+    }
+    assert!(reached.iter().all(|&count| count > 200) && far > 200, "{reached:?}, {far}");
+}
+
+#[test]
+fn fields_take_points_at_any_angle_alone() {
+    let at = (0.5, 1.0);
+    let blank = Map::from_fn(5, 4, |_, _| false).expect("a small map");
+    let on_costs = blank.clone().costs([1; 20]).expect("a cost a cell");
+    let spaces = [
+        blank.space(Motion::default()),
+        blank.space(Motion::new(K::N8, DiagonalGap::Open)),
+        on_costs.space(Motion::default()),
+    ];
+    for space in spaces.map(|space| space.expect("a motion")) {
+        for error in [space.field([at]).err(), space.field_from_within([at], 3.0).err()] {
+            assert_eq!(error.map(|error| error.code()), Some(ErrorCode::Between), "{}", space.motion());
+        }
+        let field = space.field([(0, 1)]).expect("a free source");
+        assert_eq!((field.get(at), field.next(at), field.path_from(at)), (None, None, None));
+        assert_eq!(field.get((1.0, 1.0)), field.get((1, 1)));
+    }
+}
+
+#[test]
+fn fields_from_points_follow_edits() {
+    let mut same = 0;
+    for seed in seeds(40) {
+        let (grid, mut rng) = (suite_grid(seed).0, Rng::new(seed));
+        let gap = [DiagonalGap::Open, DiagonalGap::Closed][seed as usize % 2];
+        let mut space = Map::from(grid.clone()).space(Motion::new(K::ANY, gap)).expect("any angle");
+        let sources: Vec<Point> =
+            (0..2).filter_map(|_| random_free_point(&mut rng, &grid)).map(point).collect();
+        let limit = f64::from(rng.below(12)) + 0.3;
+        let mut field = space.field_within(&sources, limit).expect("free sources");
+        for _ in 0..10 {
+            let edit = random_change(&mut rng, space.map().grid());
+            let new =
+                Map::from(edit.after().as_ref().clone()).space(space.motion()).expect("the same motion");
+            let change = Change::between(&space, &new).expect("the same motion");
+            match (field.repair(&change), new.field_within(&sources, limit)) {
+                (Ok(repaired), Ok(expected)) => {
+                    assert!(repaired.lengths() == expected.lengths(), "seed {seed}, from {sources:?}");
+                    assert_eq!(repaired.sources(), sources);
+                    for at in (0..6).filter_map(|_| random_free_point(&mut rng, new.map().grid())).map(point)
+                    {
+                        assert_eq!(repaired.path_from(at), expected.path_from(at), "seed {seed}, {at}");
+                    }
+                    (field, space) = (repaired, change.after().clone());
+                    same += 1;
+                }
+                (repaired, expected) => {
+                    let [found, expected] = [repaired, expected].map(|it| it.err().map(|it| it.to_string()));
+                    assert_eq!(found, expected, "seed {seed}");
+                }
+            }
+        }
+    }
+    assert!(same > 100, "{same}");
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mediant::{
     Change, Engine, Error, ErrorCode, Exceptions, Ground, K, Langmuir, Limits, Map, Motion, Pace, Path,
-    Query, Rectangle, Space, Vertex, Walking,
+    Point, Query, Rectangle, Space, Vertex, Walking,
     call::Call,
     errors::{QueryError, SetupError, WalkingError},
     files::{Georeference, Surface},
@@ -100,9 +100,9 @@ fn fields_are_those_of_the_crate() {
             assert!(field.iter().eq(known.iter()), "{about}");
             assert_eq!((field.width(), field.height()), world.size, "{about}");
             for at in world.vertices() {
-                let source = known.allocation(at).map(|number| sources[number as usize]);
+                let source = known.allocation(at).map(|number| sources[number as usize].into());
                 assert_eq!((field.get(at), field.nearest_source(at)), (known.get(at), source), "{about}");
-                assert_eq!(field.next(at), known.next(at), "{at}: {about}");
+                assert_eq!(field.next(at), known.next(at).map(Point::from), "{at}: {about}");
                 reached += u32::from(source.is_some());
             }
         }

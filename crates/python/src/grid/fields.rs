@@ -214,7 +214,7 @@ impl Grid {
     ) -> PyResult<Field> {
         let py = sources.py();
         let motion = Keywords::read(function, motion, MOTION)?.motion()?;
-        let sources = Points::read("sources", sources)?.into_vertices("sources")?;
+        let sources = Points::read("sources", sources)?.into_vec();
         let limit =
             limit.filter(|limit| !limit.is_none()).map(|limit| positive("limit", limit)).transpose()?;
         let progress = callback(progress)?;

@@ -1,17 +1,25 @@
 //! The exact any-angle field at corners.
 
-use std::{cmp::Reverse, collections::BinaryHeap, ops::Deref};
+use std::{
+    cmp::Reverse,
+    collections::BinaryHeap,
+    ops::Deref,
+    sync::{Arc, OnceLock},
+};
 
 use mediant_grid::{
-    BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, Interrupt, Interrupted, Placement, VertexId, load,
-    sight::Ray, uninterrupted,
+    BitMatrix, Corners, DiagonalGap, FreeSpace, Identity, Interrupt, Interrupted, Placement, Point, VertexId,
+    load,
+    sight::{Place, Ray},
+    uninterrupted,
 };
 use mediant_moves::K;
 
 use super::{
     cone::{Labels, Piece, Root, turns},
-    lengths::AnyAngleField,
-    query::{FieldError, FieldQuery},
+    lengths::{AnyAngleField, Known},
+    query::{FieldError, FieldQuery, Sources},
+    sight::Sight,
 };
 use crate::filled::filled;
 use crate::limit::with_room;
@@ -46,6 +54,8 @@ pub struct AnyAngleFields<S> {
     open: BinaryHeap<Reverse<(u64, u32)>>,
     bends: Vec<(f64, VertexId)>,
     pending: Vec<Piece>,
+    /// For points between vertices, in all its fields.
+    sight: Arc<OnceLock<Sight>>,
 }
 
 impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
@@ -61,7 +71,8 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     /// [`Interrupted`].
     pub fn interruptible(space: S, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let corners = bends(&space, interrupt)?;
-        Ok(Self { space, corners, open: BinaryHeap::new(), bends: Vec::new(), pending: Vec::new() })
+        let (open, bends, pending, sight) = Default::default();
+        Ok(Self { space, corners, open, bends, pending, sight })
     }
 
     /// The identity: its map and rules, and k = ∞.
@@ -80,6 +91,8 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
 
     /// The length of a shortest any-angle path from every vertex to the nearest source.
     ///
+    /// Sources may be [points](FieldQuery::from_points) between vertices.
+    ///
     /// # Errors
     /// [`FieldError`] for a source that is blocked or outside the map, or a limit that is none.
     pub fn field(&mut self, query: FieldQuery<'_>) -> Result<AnyAngleField<S>, FieldError> {
@@ -96,12 +109,12 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
         query: FieldQuery<'_>,
         interrupt: &Interrupt,
     ) -> Result<AnyAngleField<S>, FieldError> {
-        let sources = query.check(&self.space)?;
+        let Sources { vertices, between } = query.check_points(&self.space)?;
         let count = self.space.vertex_count();
         let (mut lengths, mut toward) = (filled(f64::INFINITY, count, interrupt)?, vec![0; count]);
         self.open.clear();
         self.bends.clear();
-        for &id in &sources {
+        for &id in &vertices {
             if let (Some(length), Some(toward)) = (lengths.get_mut(id.index()), toward.get_mut(id.index())) {
                 if *length > 0.0 {
                     self.open.push(Reverse((0, id.0)));
@@ -109,6 +122,8 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
                 (*length, *toward) = (0.0, id.0);
             }
         }
+        let beyond = count as u32..;
+        self.open.extend(beyond.zip(&between).map(|(number, _)| Reverse((0, number))));
         let targets: Vec<usize> =
             query.until.iter().filter_map(|&at| self.space.id(at)).map(VertexId::index).collect();
         let labels = Labels {
@@ -116,6 +131,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
             corners: &self.corners,
             lengths: &mut lengths,
             toward: &mut toward,
+            between: &between,
             limit: with_room(query.limit),
             bends: &mut self.bends,
             pending: &mut self.pending,
@@ -123,6 +139,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
             unasked: 0,
         };
         settle(labels, &mut self.open, &targets)?;
+        let mut reach = with_room(query.limit);
         if !targets.is_empty() {
             let farthest = targets.iter().filter_map(|&id| lengths.get(id)).copied().fold(0.0, f64::max);
             let farthest = with_room(farthest);
@@ -130,8 +147,11 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
                 .iter_mut()
                 .filter(|length| **length > farthest)
                 .for_each(|length| *length = f64::INFINITY);
+            reach = reach.min(farthest);
         }
-        Ok(AnyAngleField::new(self.space.clone(), lengths, toward, query))
+        let between = between.into_iter().map(Point::from).collect();
+        let labels = Known { lengths, toward, between, reach };
+        Ok(AnyAngleField::new(self.space.clone(), labels, query, Arc::clone(&self.sight)))
     }
 }
 
@@ -141,19 +161,18 @@ fn settle(
     open: &mut BinaryHeap<Reverse<(u64, u32)>>,
     targets: &[usize],
 ) -> Result<(), Interrupted> {
-    while let Some(Reverse((bits, id))) = open.pop() {
-        let (g, id) = (f64::from_bits(bits), VertexId(id));
+    while let Some(Reverse((bits, number))) = open.pop() {
+        let g = f64::from_bits(bits);
         let is_final = |&id: &usize| labels.lengths.get(id).is_some_and(|&length| with_room(length) <= g);
         if g > labels.limit || !targets.is_empty() && targets.iter().all(is_final) {
             return Ok(());
         }
-        let known = labels.lengths.get(id.index()).zip(labels.toward.get(id.index()));
-        let Some((_, &parent)) = known.filter(|&(&length, _)| length.to_bits() == bits) else { continue };
-        let root = Root { at: labels.space.vertex(id), id, g };
-        if parent == id.0 {
+        let Some((at, parent)) = labels.place(number).zip(labels.parent(number, g)) else { continue };
+        let root = Root { at, number, g };
+        if parent == number {
             from_source(&mut labels, root)?;
-        } else {
-            from_bend(&mut labels, root, VertexId(parent))?;
+        } else if let Some(parent) = labels.place(parent) {
+            from_bend(&mut labels, root, parent)?;
         }
         open.extend(labels.bends.drain(..).map(|(length, id)| Reverse((length.to_bits(), id.0))));
     }
@@ -162,15 +181,15 @@ fn settle(
 
 /// Labels all that a source sees. From a closed gap a path leaves by the quadrant of the vertex's own cell.
 fn from_source(labels: &mut Labels<'_>, root: Root) -> Result<(), Interrupted> {
-    if labels.space.is_closed_gap(root.at) {
-        if labels.space.grid().is_free(root.at.x, root.at.y) {
+    if let Some(at) = root.at.vertex().filter(|&at| labels.space.is_closed_gap(at)) {
+        if labels.space.grid().is_free(at.x, at.y) {
             labels.in_cone(root, 1, Some(Ray::VERTICAL), None)?;
             labels.along_line(root, 1);
         }
         return Ok(());
     }
     for down in [1, -1] {
-        labels.in_cone(root, down, None, None)?;
+        labels.in_half(root, down)?;
     }
     for right in [1, -1] {
         labels.along_line(root, right);
@@ -180,13 +199,12 @@ fn from_source(labels: &mut Labels<'_>, root: Root) -> Result<(), Interrupted> {
 
 /// Labels what taut paths reach that bend at a corner: what lies between straight on and the edge of the
 /// obstacle.
-fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) -> Result<(), Interrupted> {
+fn from_bend(labels: &mut Labels<'_>, root: Root, from: Place) -> Result<(), Interrupted> {
     let space = labels.space;
-    let from = space.vertex(parent);
     let u = from.to(root.at);
     let straight = (u.y != 0).then(|| Ray { dx: u.x, dy: u.y.abs() });
     let mut stopped = Ok(());
-    turns(space, root.at, from, |(x, y), to_horizontal| {
+    turns(space, root.at.floor(), from, |(x, y), to_horizontal| {
         if stopped.is_err() {
             return;
         }
@@ -205,7 +223,7 @@ fn from_bend(labels: &mut Labels<'_>, root: Root, parent: VertexId) -> Result<()
 
 /// The vertices at which paths may bend: those that touch one blocked cell, or two that meet diagonally, if a
 /// path may pass between them.
-fn bends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
+pub(super) fn bends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
     let cells = space.grid().rows();
     let is_open = space.rule() == DiagonalGap::Open;
     let (size, stop) = (Corners::vertices(space.grid()), (interrupt, "finding corners"));

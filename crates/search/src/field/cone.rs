@@ -8,10 +8,19 @@ use mediant_grid::{
 /// A source, or a corner of an obstacle at which paths bend.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Root {
-    pub(super) at: Vertex,
-    pub(super) id: VertexId,
+    pub(super) at: Place,
+    /// Its number: that of a vertex, or beyond those of all vertices that of a source between them.
+    pub(super) number: u32,
     /// Its distance to the nearest source.
     pub(super) g: f64,
+}
+
+impl Root {
+    /// The distance to a line above or below it, in parts of a cell.
+    #[inline]
+    const fn away(&self, line: i32, down: i32) -> i32 {
+        (Place::parts(line) - self.at.y) * down
+    }
 }
 
 /// The part of a line that a root sees: an interval between two rays, its ends included.
@@ -38,8 +47,10 @@ pub(super) struct Labels<'s> {
     pub(super) corners: &'s BitMatrix,
     /// By vertex number: the distance, infinity if none is known.
     pub(super) lengths: &'s mut [f64],
-    /// By vertex number: the next root on the way to the source.
+    /// By vertex number: the number of the next root on the way to the source.
     pub(super) toward: &'s mut [u32],
+    /// The sources between vertices.
+    pub(super) between: &'s [Place],
     pub(super) limit: f64,
     /// The corners that were reached by a shorter path than before, around which paths may bend.
     pub(super) bends: &'s mut Vec<(f64, VertexId)>,
@@ -52,16 +63,19 @@ pub(super) struct Labels<'s> {
 /// The work between two questions of an interrupt.
 const WORK: usize = 1 << 13;
 
+/// A part of a cell, in cells. Products with it are exact.
+const PART: f64 = 1.0 / Place::parts(1) as f64;
+
 /// Whether a path that comes to a corner along `u` may bend around one of its blocked cells. `turn` is called
 /// with the signs of the cell, seen from the corner, and whether the path turns towards the horizontal edge
 /// of the cell rather than the vertical one; it returns whether to look for more.
 pub(super) fn turns(
     space: &FreeSpace<Corners>,
     at: Vertex,
-    from: Vertex,
+    from: Place,
     mut turn: impl FnMut((i32, i32), bool),
 ) {
-    let u = from.to(at);
+    let u = from.to(Place::of(at));
     for (x, y) in [(-1, -1), (1, -1), (-1, 1), (1, 1)] {
         if space.grid().is_free(at.x + (x - 1) / 2, at.y + (y - 1) / 2) {
             continue;
@@ -76,6 +90,25 @@ pub(super) fn turns(
 }
 
 impl Labels<'_> {
+    /// The place of a root.
+    #[inline]
+    pub(super) fn place(&self, number: u32) -> Option<Place> {
+        match (number as usize).checked_sub(self.lengths.len()) {
+            None => Some(Place::of(self.space.vertex(VertexId(number)))),
+            Some(index) => self.between.get(index).copied(),
+        }
+    }
+
+    /// The number of the root before this one, if this distance is the one that is known; a source's own.
+    #[inline]
+    pub(super) fn parent(&self, number: u32, length: f64) -> Option<u32> {
+        match self.lengths.get(number as usize) {
+            None => Some(number),
+            Some(known) if known.to_bits() != length.to_bits() => None,
+            Some(_) => self.toward.get(number as usize).copied(),
+        }
+    }
+
     /// Labels a vertex that a root sees, if the path by the root is shorter. Returns whether a path may go on
     /// from there, or past it, and be a shortest one.
     #[inline]
@@ -86,12 +119,12 @@ impl Labels<'_> {
         let goes_on = length <= *known + MARGIN && length <= self.limit + MARGIN;
         if length < *known && length <= self.limit {
             if self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
-                if self.space.may_turn(Some(root.at), at, None) {
-                    (*known, *toward) = (length, root.id.0);
+                if self.space.may_turn_at(Some(root.at.into()), at.into(), None) {
+                    (*known, *toward) = (length, root.number);
                 }
                 return true;
             }
-            (*known, *toward) = (length, root.id.0);
+            (*known, *toward) = (length, root.number);
             if self.corners.get(at.x, at.y) {
                 let mut bends = false;
                 turns(self.space, at, root.at, |_, _| bends = true);
@@ -106,12 +139,14 @@ impl Labels<'_> {
         goes_on
     }
 
-    /// Labels the vertices on the horizontal line of a root, to one side.
+    /// Labels the vertices on the horizontal line of a root, if it is on one, to one side.
     pub(super) fn along_line(&mut self, root: Root, right: i32) {
-        let y = root.at.y;
+        let ((left, after), (y, below)) = (root.at.columns(), root.at.lines());
+        let mut x = if right > 0 { left } else { after };
+        let Some(id) = self.space.id(Vertex::new(x, y)).filter(|_| y == below) else { return };
         let grid = self.space.grid();
         let [above, below] = [-1, 1].map(|down| row_ahead(grid.rows(), y, down));
-        let (mut x, mut index) = (root.at.x, root.id.0);
+        let mut index = id.0;
         loop {
             let cell = x + (right - 1) / 2;
             if above.is_blocked(cell) && below.is_blocked(cell) {
@@ -120,15 +155,27 @@ impl Labels<'_> {
             x += right;
             index = index.wrapping_add_signed(right);
             let at = Vertex::new(x, y);
-            let length = root.g + f64::from(x.abs_diff(root.at.x));
+            let length = root.g + f64::from(Place::parts(x).abs_diff(root.at.x)) * PART;
             if !self.label(root, at, index as usize, length) || self.space.is_closed_gap(at) {
                 return;
             }
         }
     }
 
-    /// Labels what a root sees above or below it. `left` and `right` are the rays between which it looks;
-    /// `None` for the horizontal.
+    /// Labels all that a root sees above or below it.
+    pub(super) fn in_half(&mut self, root: Root, down: i32) -> Result<(), Interrupted> {
+        let line = root.at.line(down);
+        let (start, end) = root.at.run(row_ahead(self.space.grid().rows(), line, down));
+        if start >= end {
+            return Ok(());
+        }
+        let away = root.away(line + down, down);
+        let [left, right] = [start, end].map(|x| IntervalEnd::corner(x, root.at.x, away));
+        self.follow(root, down, Piece { line: line + down, left, right })
+    }
+
+    /// Labels what a root at a vertex sees above or below it. `left` and `right` are the rays between which
+    /// it looks; `None` for the horizontal.
     pub(super) fn in_cone(
         &mut self,
         root: Root,
@@ -136,9 +183,9 @@ impl Labels<'_> {
         left: Option<Ray>,
         right: Option<Ray>,
     ) -> Result<(), Interrupted> {
-        let at = root.at;
+        let at = root.at.floor();
         let ahead = row_ahead(self.space.grid().rows(), at.y, down);
-        let (from, away) = (Place::of(at).x, Place::parts(1));
+        let (from, away) = (root.at.x, Place::parts(1));
         let on_line = |ray| IntervalEnd::new(ray, from, away);
         let corner = |x| IntervalEnd::corner(x, from, away);
         // A ray that leads to the right leaves the vertex through the cell on its right.
@@ -152,16 +199,23 @@ impl Labels<'_> {
         let left = left.map_or(corner(start), |ray| clipped(on_line(ray), Side::Left, start));
         let right = right.map_or(corner(end), |ray| clipped(on_line(ray), Side::Right, end));
         if widens(left, right) {
-            self.pending.clear();
-            self.pending.push(Piece { line: at.y + down, left, right });
-            while let Some(piece) = self.pending.pop() {
-                if let Some(piece) = self.label_line(root, down, piece) {
-                    self.cross_row(root, down, piece);
-                }
-                if self.unasked >= WORK {
-                    self.unasked = 0;
-                    self.interrupt.check("finding the distances of a field")?;
-                }
+            self.follow(root, down, Piece { line: at.y + down, left, right })
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Labels an interval, and what is seen through it.
+    fn follow(&mut self, root: Root, down: i32, piece: Piece) -> Result<(), Interrupted> {
+        self.pending.clear();
+        self.pending.push(piece);
+        while let Some(piece) = self.pending.pop() {
+            if let Some(piece) = self.label_line(root, down, piece) {
+                self.cross_row(root, down, piece);
+            }
+            if self.unasked >= WORK {
+                self.unasked = 0;
+                self.interrupt.check("finding the distances of a field")?;
             }
         }
         Ok(())
@@ -176,19 +230,20 @@ impl Labels<'_> {
         if first > last {
             return Some(piece);
         }
-        let n = (piece.line - root.at.y) * down;
+        let n = root.away(piece.line, down);
         let away = f64::from(n) * f64::from(n);
         let row = self.space.id(Vertex::new(0, piece.line))?.index();
         let mut alive: Option<(i32, i32)> = None;
         for x in first..=last {
-            let aside = f64::from(x - root.at.x);
-            let length = root.g + (aside * aside + away).sqrt();
+            let aside = f64::from(Place::parts(x) - root.at.x);
+            // The root of a sum of squares in parts: with exact factors, to the last bit that in cells.
+            let length = root.g + (aside * aside + away).sqrt() * PART;
             if self.label(root, Vertex::new(x, piece.line), row + x as usize, length) {
                 alive = Some((alive.map_or(x, |(low, _)| low), x));
             }
         }
         let (low, high) = alive?;
-        let corner = |x| IntervalEnd::corner(x, Place::of(root.at).x, Place::parts(n));
+        let corner = |x| IntervalEnd::corner(x, root.at.x, n);
         let left = if low > first { corner(low - 1) } else { piece.left };
         let right = if high < last { corner(high + 1) } else { piece.right };
         Some(Piece { left, right, ..piece })
@@ -197,9 +252,10 @@ impl Labels<'_> {
     /// Finds the parts of the next line that are seen through the runs of free cells ahead.
     #[inline]
     fn cross_row(&mut self, root: Root, down: i32, Piece { line, left, right }: Piece) {
-        let n = (line - root.at.y) * down;
+        let n = root.away(line, down);
         let ahead = row_ahead(self.space.grid().rows(), line, down);
-        let corner = |x: i32, n: i32| IntervalEnd::corner(x, Place::of(root.at).x, Place::parts(n));
+        let corner = |x: i32, n: i32| IntervalEnd::corner(x, root.at.x, n);
+        let after = n + Place::parts(1);
         let (first, last) = (left.here.floor(), right.here.ceil());
         let (low, high) = (left.next().floor().min(first), right.next().ceil().max(last));
         let mut column = first;
@@ -215,9 +271,9 @@ impl Labels<'_> {
             let (next_left, next_right): (Crossing, Crossing) = (left.next(), right.next());
             if next_left.floor() < stop && next_right.ceil() > start {
                 let is_wall = Side::Left.is_outside(next_left, start);
-                let left = if is_wall { corner(start, n + 1) } else { left.moved_to(next_left) };
+                let left = if is_wall { corner(start, after) } else { left.moved_to(next_left) };
                 let is_wall = Side::Right.is_outside(next_right, stop);
-                let right = if is_wall { corner(stop, n + 1) } else { right.moved_to(next_right) };
+                let right = if is_wall { corner(stop, after) } else { right.moved_to(next_right) };
                 self.pending.push(Piece { line: line + down, left, right });
             }
             column = stop + 1;

@@ -30,7 +30,7 @@ pub struct Field<G> {
 
 impl<G> Field<G> {
     pub(super) fn new(graph: G, costs: Versioned<Cost>, query: FieldQuery<'_>) -> Self {
-        Self { graph, costs, asked: Arc::new(query.into()) }
+        Self { graph, costs, asked: Arc::new(Asked::of_vertices(query)) }
     }
 
     pub(super) fn into_costs(self) -> Versioned<Cost> {

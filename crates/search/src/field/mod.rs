@@ -47,6 +47,12 @@
 //! is left out on no line that it crosses, since only what is farther by a margin is left out, and rounding
 //! is far below this margin. ∎
 //!
+//! **Sources between vertices** are roots like all others: a root is a place of the map, in parts of a cell
+//! ([`mediant_grid::sight`]). It has a number, by which vertices name the next root on their way: that of its
+//! vertex, or, for the nth source that is no vertex, the number of vertices plus n. No bend is such a root.
+//! A field holds the distances of vertices alone. That of a point between them, when it is asked for, is the
+//! least over what the point sees (module `sight`).
+//!
 //! # After a change of the map
 //!
 //! Over N(k) a field follows a change by work that follows the vertices whose distances change: module
@@ -67,6 +73,7 @@ mod lengths;
 mod open_ground;
 mod query;
 mod repair;
+mod sight;
 
 pub use any_angle::AnyAngleFields;
 pub use costs::Field;

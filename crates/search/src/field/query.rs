@@ -1,11 +1,15 @@
 //! Queries of fields, and their errors.
 
-use mediant_grid::{FreeSpace, Interrupted, Mismatch, Placement, Vertex, VertexId};
+use std::fmt;
+
+use mediant_grid::{
+    Corners, FreeSpace, Interrupted, Mismatch, Placement, Point, Vertex, VertexId, sight::Place,
+};
 use mediant_moves::Cost;
 
 use crate::{
     limit::{at_most, greatest_cost},
-    query::{Ends, QueryError},
+    query::{End, PointEnds, QueryError},
 };
 
 /// The sources of a field, and its limit.
@@ -15,12 +19,16 @@ use crate::{
 /// let sources = [(0, 0), (7, 3)].map(Into::into);
 /// let range = FieldQuery::new(&sources).within(6.0);
 /// assert_eq!(range.limit, 6.0);
+/// let points = [(0.5, 0.25), (7.0, 3.0)].map(Into::into);
+/// assert!(FieldQuery::from_points(&points).all_sources().eq(points));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct FieldQuery<'q> {
-    /// The vertices at distance 0. If there is none, the field is empty.
+    /// The vertices at distance 0. If there is no source, the field is empty.
     pub sources: &'q [Vertex],
+    /// More sources. At any angle they may lie between vertices.
+    pub points: &'q [Point],
     /// The greatest distance in the field, in cells: it holds exactly the vertices that are as near or
     /// nearer, where distances that differ by a factor of at most 1 + 2⁻³¹ count as the same. So the
     /// distance of a vertex as a limit reaches that vertex. Infinity is no limit.
@@ -35,7 +43,13 @@ impl<'q> FieldQuery<'q> {
     /// All that can be reached from the sources.
     #[must_use]
     pub const fn new(sources: &'q [Vertex]) -> Self {
-        Self { sources, limit: f64::INFINITY, until: &[] }
+        Self { sources, points: &[], limit: f64::INFINITY, until: &[] }
+    }
+
+    /// All that can be reached from sources at points.
+    #[must_use]
+    pub const fn from_points(points: &'q [Point]) -> Self {
+        Self { points, ..Self::new(&[]) }
     }
 
     /// The same within a distance, in cells: a movement range. It includes what is exactly so far: see
@@ -51,16 +65,43 @@ impl<'q> FieldQuery<'q> {
         Self { until, ..self }
     }
 
-    /// Checks sources, targets and limit. Returns the ids of the sources.
+    /// All sources: the vertices, then the points.
+    pub fn all_sources(&self) -> impl DoubleEndedIterator<Item = Point> + use<'q> {
+        self.sources.iter().map(Point::from).chain(self.points.iter().copied())
+    }
+
+    /// Checks sources, targets and limit where all sources have to be vertices. Returns their ids.
     pub(super) fn check<P: Placement>(&self, space: &FreeSpace<P>) -> Result<Vec<VertexId>, FieldError> {
+        let checked = |at: Point| {
+            let vertex = at.vertex().ok_or(QueryError::Between { end: End::Start, at })?;
+            End::Start.check(space, vertex).map(|()| vertex)
+        };
+        let vertices = self.check_with(space, checked)?;
+        Ok(vertices.into_iter().filter_map(|at| space.id(at)).collect())
+    }
+
+    /// Checks sources, targets and limit at any angle.
+    pub(super) fn check_points(&self, space: &FreeSpace<Corners>) -> Result<Sources, FieldError> {
+        let checked = |at| PointEnds::new(at, at).places(space).map(|[at, _]| at);
+        let places = self.check_with(space, checked)?;
+        let vertices = places.iter().filter_map(|at| space.id(at.vertex()?)).collect();
+        let between = places.into_iter().filter(|at| at.vertex().is_none()).collect();
+        Ok(Sources { vertices, between })
+    }
+
+    fn check_with<P: Placement, T>(
+        &self,
+        space: &FreeSpace<P>,
+        checked: impl Fn(Point) -> Result<T, QueryError>,
+    ) -> Result<Vec<T>, FieldError> {
         if self.limit.is_nan() || self.limit < 0.0 {
             return Err(FieldError::Limit { limit: self.limit });
         }
-        self.sources.iter().try_for_each(|&at| Ends::new(at, at).check(space))?;
-        if let Some(&first) = self.sources.first() {
-            self.until.iter().try_for_each(|&at| Ends::new(first, at).check(space))?;
+        let sources: Vec<T> = self.all_sources().map(checked).collect::<Result<_, _>>()?;
+        if !sources.is_empty() {
+            self.until.iter().try_for_each(|&at| End::Goal.check(space, at))?;
         }
-        Ok(self.sources.iter().filter_map(|&at| space.id(at)).collect())
+        Ok(sources)
     }
 
     /// The limit in fixed point.
@@ -77,23 +118,51 @@ impl<'q> FieldQuery<'q> {
     }
 }
 
+/// The points of a query are shown if there are some.
+impl fmt::Debug for FieldQuery<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("FieldQuery");
+        shown.field("sources", &self.sources);
+        if !self.points.is_empty() {
+            shown.field("points", &self.points);
+        }
+        shown.field("limit", &self.limit).field("until", &self.until).finish()
+    }
+}
+
+/// The sources of a field at any angle.
+pub(super) struct Sources {
+    pub(super) vertices: Vec<VertexId>,
+    /// Those that are no vertices.
+    pub(super) between: Vec<Place>,
+}
+
 /// A query that a field keeps, to be asked again after a change of the map.
 #[derive(Clone, Debug)]
 pub(super) struct Asked {
     sources: Box<[Vertex]>,
+    points: Box<[Point]>,
     limit: f64,
     until: Box<[Vertex]>,
 }
 
 impl From<FieldQuery<'_>> for Asked {
     fn from(query: FieldQuery<'_>) -> Self {
-        Self { sources: query.sources.into(), limit: query.limit, until: query.until.into() }
+        let FieldQuery { sources, points, limit, until } = query;
+        Self { sources: sources.into(), points: points.into(), limit, until: until.into() }
     }
 }
 
 impl Asked {
+    /// The same with all sources as vertices, which they are.
+    pub(super) fn of_vertices(query: FieldQuery<'_>) -> Self {
+        let sources = query.all_sources().filter_map(Point::vertex).collect();
+        Self { sources, points: Box::default(), limit: query.limit, until: query.until.into() }
+    }
+
     pub(super) fn query(&self) -> FieldQuery<'_> {
-        FieldQuery { sources: &self.sources, limit: self.limit, until: &self.until }
+        let Self { sources, points, limit, until } = self;
+        FieldQuery { sources, points, limit: *limit, until }
     }
 }
 
@@ -102,7 +171,7 @@ impl Asked {
 #[non_exhaustive]
 pub enum FieldError {
     /// A source (called the start) or a vertex at which the field is to end (the goal) is blocked or outside
-    /// the map.
+    /// the map; or a source lies between vertices where paths have to start at vertices.
     #[error(transparent)]
     Query(#[from] QueryError),
     /// The limit is negative or not a number.

@@ -39,7 +39,7 @@ fn check_field(
         }
         let last = *path.waypoints().last().unwrap();
         assert!(sources.contains(&last), "{path} ends at no source; {}", case(at));
-        assert_eq!(field.nearest_source(at), Some(last));
+        assert_eq!(field.nearest_source(at), Some(last.into()));
         let fault = validate(space.grid(), space.rules(), None, at, last, path.waypoints(), found);
         assert_eq!(fault, Ok(()), "{path}; {}", case(at));
         assert_eq!(field.next(at).is_none(), found == 0.0);

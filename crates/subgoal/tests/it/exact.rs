@@ -217,7 +217,9 @@ fn check_explicitly<P: SubgoalPlacement>(
 
 fn check_rules_explicitly(grid: &Grid, rules: Rules, k: K, hierarchy: Hierarchy, seed: u64) -> Tally {
     match rules {
-        Rules::Corner(gap) => check_explicitly::<Corners>(grid, gap, k, hierarchy, seed),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => {
+            check_explicitly::<Corners>(grid, gap, k, hierarchy, seed)
+        }
         Rules::Center(corners) => check_explicitly::<Centers>(grid, corners, k, hierarchy, seed),
     }
 }

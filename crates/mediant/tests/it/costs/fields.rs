@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use mediant::{DirectionCode, Engine, ErrorCode, K, Limits, Map, Motion, Path, Rules, Vertex};
+use mediant::{DirectionCode, Engine, ErrorCode, K, Limits, Map, Motion, Path, Point, Rules, Vertex};
 use mediant_oracle::{Rng, random_free_vertex, random_weighted, seeds};
 
 use super::{World, ends};
@@ -35,12 +35,12 @@ fn fields_are_those_of_the_oracle() {
             let told = world.to_f64(cost);
             assert_eq!((field.get(at), *length), (Some(told), told), "{at}: {about}");
             assert_eq!(listed.next(), Some((at, told)), "{about}");
-            assert_eq!(field.nearest_source(at), Some(sources[source]), "{at}: {about}");
+            assert_eq!(field.nearest_source(at), Some(sources[source].into()), "{at}: {about}");
             let path = field.path_from(at).expect("it is in the field");
             world.check_path(&path, cost);
             assert!(sources.contains(&ends(&path).1), "{path}: {about}");
             let next = path.vertices().nth(1).filter(|_| cost > 0);
-            assert_eq!(field.next(at), next, "{path}: {about}");
+            assert_eq!(field.next(at), next.map(Point::from), "{path}: {about}");
             if let (Some(next), Some((x, y))) = (next, field.direction(at)) {
                 let d = at.to(next);
                 assert!((x * d.norm() - f64::from(d.x)).abs() + (y * d.norm() - f64::from(d.y)).abs() < 1e-9);
@@ -116,11 +116,11 @@ fn rows_are_those_of_single_vertices() {
             assert_eq!((allocation.len(), directions[0].len()), (lengths.len(), lengths.len()), "{about}");
             for (number, at) in world.vertices().into_iter().enumerate() {
                 let source = allocation[number].map(|source| sources[source as usize]);
-                assert_eq!(source, field.nearest_source(at), "{at}: {about}");
+                assert_eq!(source.map(Point::from), field.nearest_source(at), "{at}: {about}");
                 // Of equal sources it is the first.
                 assert!(source.is_none_or(|source| sources.iter().position(|&at| at == source)
                     == allocation[number].map(|source| source as usize)));
-                let next = field.next(at);
+                let next = field.next(at).and_then(Point::vertex);
                 for (code, row) in codes.into_iter().zip(&directions) {
                     let told = Some(row[number]).filter(|number| !number.is_nan());
                     let expected = match next {
@@ -168,7 +168,7 @@ fn allocation_at_any_angle() {
     let (mut found, allocation) = (0, field.allocation());
     for (number, source) in allocation.into_iter().enumerate() {
         let at = Vertex::new(number as i32 % 13, number as i32 / 13);
-        assert_eq!(source.map(|source| sources[source as usize]), field.nearest_source(at), "{at}");
+        assert_eq!(source.map(|source| sources[source as usize].into()), field.nearest_source(at), "{at}");
         found += usize::from(source.is_some());
     }
     assert!(found > 60, "{found}");

@@ -191,7 +191,7 @@ fn check_explicitly<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K, most:
 
 fn check_rules(grid: &Grid, rules: Rules, k: K, most: usize, seed: u64) -> Tally {
     match rules {
-        Rules::Corner(gap) => check_explicitly::<Corners>(grid, gap, k, most, seed),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => check_explicitly::<Corners>(grid, gap, k, most, seed),
         Rules::Center(corners) => check_explicitly::<Centers>(grid, corners, k, most, seed),
     }
 }
