@@ -153,7 +153,7 @@ fn a_disc_keeps_its_radius_along_every_path_of_its_map() {
                     let holds = match rules {
                         _ if whole => least(0),
                         Rules::Center(_) => least(32),
-                        Rules::Corner(_) => least(46),
+                        Rules::Corner(_) | Rules::CenterGap(_) => least(46),
                     };
                     assert!(
                         holds,
@@ -184,7 +184,7 @@ fn a_square_is_free_along_every_path_of_its_map() {
             let (start, side) = match rules {
                 _ if is_whole(rules, k) => (-1, 2 * n),
                 Rules::Center(_) => (0, 2 * n - 2),
-                Rules::Corner(_) => (0, 2 * n - 2),
+                Rules::Corner(_) | Rules::CenterGap(_) => (0, 2 * n - 2),
             };
             for (from, to) in segments(&map, rules, k, &mut rng) {
                 let segment = Segment::new(rules.placement(), from, to);

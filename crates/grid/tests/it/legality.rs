@@ -62,7 +62,7 @@ fn legal_moves_are_those_of_brute_force() {
             for rules in Rules::ALL {
                 legal += match rules {
                     Rules::Center(corners) => check_moves::<Centers>(&grid, corners, k, seed),
-                    Rules::Corner(gap) => check_moves::<Corners>(&grid, gap, k, seed),
+                    Rules::Corner(gap) | Rules::CenterGap(gap) => check_moves::<Corners>(&grid, gap, k, seed),
                 };
             }
         }
@@ -116,7 +116,9 @@ fn long_moves_of_large_k_are_legal_as_brute_force_says() {
             for (rules, legal) in Rules::ALL.into_iter().zip(&mut legal) {
                 *legal += match rules {
                     Rules::Center(corners) => check_long_moves::<Centers>(&grid, corners, k, seed),
-                    Rules::Corner(gap) => check_long_moves::<Corners>(&grid, gap, k, seed),
+                    Rules::Corner(gap) | Rules::CenterGap(gap) => {
+                        check_long_moves::<Corners>(&grid, gap, k, seed)
+                    }
                 };
             }
         }
@@ -195,7 +197,7 @@ fn components_tell_whether_there_is_any_path() {
                             GridGraph::<Centers>::new(Arc::clone(&grid), k, corners).expect("k is in range");
                         Box::new(move |a, b| graph.connected(a, b))
                     }
-                    Rules::Corner(gap) => {
+                    Rules::Corner(gap) | Rules::CenterGap(gap) => {
                         let graph =
                             GridGraph::<Corners>::new(Arc::clone(&grid), k, gap).expect("k is in range");
                         Box::new(move |a, b| graph.connected(a, b))
@@ -298,7 +300,7 @@ fn free_vertices_are_those_of_brute_force_however_far_outside() {
             for rules in Rules::ALL {
                 let free = match rules {
                     Rules::Center(_) => Centers::is_free(&grid, at),
-                    Rules::Corner(_) => Corners::is_free(&grid, at),
+                    Rules::Corner(_) | Rules::CenterGap(_) => Corners::is_free(&grid, at),
                 };
                 assert_eq!(free, inner && vertex_is_free(&grid, rules.placement(), at), "{at} under {rules}");
                 assert!(!line_of_sight_under(&grid, rules, at, Vertex::new(i32::MAX, i32::MIN)));

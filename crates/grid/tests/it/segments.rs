@@ -104,7 +104,7 @@ fn what_blocks_a_segment_is_the_first_that_does() {
         for (rules, counts) in Rules::ALL.into_iter().zip(&mut counts) {
             match rules {
                 Rules::Center(rule) => check::<Centers>(&grid, rule, seed, counts),
-                Rules::Corner(rule) => check::<Corners>(&grid, rule, seed, counts),
+                Rules::Corner(rule) | Rules::CenterGap(rule) => check::<Corners>(&grid, rule, seed, counts),
             }
         }
     }

@@ -226,7 +226,9 @@ fn canonical_generates_no_more_than_a_star_and_the_published_rule_is_complete() 
     on_random_maps(75, &ks, |grid, k, case| {
         let [a_star, exact, paper] = match case.rules {
             Rules::Center(corners) => three::<Centers>(&mut at_centers, grid, k, corners, case),
-            Rules::Corner(gap) => three::<Corners>(&mut at_corners, grid, k, gap, case),
+            Rules::Corner(gap) | Rules::CenterGap(gap) => {
+                three::<Corners>(&mut at_corners, grid, k, gap, case)
+            }
         };
         let (best, found) = (a_star.0, paper.0);
         assert_eq!(best.is_some(), found.is_some(), "k = {k}; {case}");

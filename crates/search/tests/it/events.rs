@@ -213,7 +213,7 @@ fn events_tell_the_whole_search() {
             let k = FiniteK::new(k).expect("k is at least 2");
             swaps_by_decreases += match rules {
                 Rules::Center(corners) => replay::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => replay::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => replay::<Corners>(&grid, gap, k, seed),
             };
         }
     }

@@ -227,7 +227,7 @@ fn engines_are_exact_on_every_map_of_nine_cells() {
 fn bound(rules: Rules, k: u32) -> f64 {
     let number = FiniteK::new(k).expect("k is at least 2");
     match rules {
-        Rules::Corner(_) => mediant_moves::bound_at_corners(number),
+        Rules::Corner(_) | Rules::CenterGap(_) => mediant_moves::bound_at_corners(number),
         Rules::Center(CornerRule::Never) => mediant_moves::BOUND_WITHOUT_CORNER_CUTTING,
         Rules::Center(CornerRule::Always) if k == 2 => f64::INFINITY,
         Rules::Center(_) => mediant_moves::bound_at_centers(number),

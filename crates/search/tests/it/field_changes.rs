@@ -142,7 +142,7 @@ fn check_rules(rules: Rules, k: u32, maps: u64) -> Told {
     }
     match rules {
         Rules::Center(rule) => on::<Centers>(rule, k, maps),
-        Rules::Corner(rule) => on::<Corners>(rule, k, maps),
+        Rules::Corner(rule) | Rules::CenterGap(rule) => on::<Corners>(rule, k, maps),
     }
 }
 

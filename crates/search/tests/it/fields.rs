@@ -118,7 +118,7 @@ fn check_maps(maps: &[(Arc<Grid>, u64)], rules: Rules, k: u32) -> [u64; 2] {
     }
     match rules {
         Rules::Center(rule) => on::<Centers>(maps, rule, k),
-        Rules::Corner(rule) => on::<Corners>(maps, rule, k),
+        Rules::Corner(rule) | Rules::CenterGap(rule) => on::<Corners>(maps, rule, k),
     }
 }
 

@@ -93,7 +93,9 @@ fn a_star_reopens_nodes_and_is_optimal_with_an_inconsistent_heuristic() {
             for rules in Rules::ALL {
                 seen += match rules {
                     Rules::Center(corners) => reopened::<Centers>(&grid, corners, number, seed),
-                    Rules::Corner(gap) => reopened::<Corners>(&grid, gap, number, seed),
+                    Rules::Corner(gap) | Rules::CenterGap(gap) => {
+                        reopened::<Corners>(&grid, gap, number, seed)
+                    }
                 };
             }
         }
@@ -152,7 +154,7 @@ fn no_estimate_exceeds_the_cost_along_a_path() {
             let k = FiniteK::new(k).expect("k is at least 2");
             seen += match rules {
                 Rules::Center(corners) => check_bounds::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
             };
         }
     }
@@ -226,7 +228,7 @@ fn a_star_finds_a_path_by_a_heuristic_that_overestimates_whenever_there_is_one()
             let k = FiniteK::new(k).expect("k is at least 2");
             let more = match rules {
                 Rules::Center(corners) => check_squared::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => check_squared::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => check_squared::<Corners>(&grid, gap, k, seed),
             };
             seen.iter_mut().zip(more).for_each(|(seen, more)| *seen += more);
         }
@@ -306,7 +308,7 @@ fn a_path_is_found_within_a_limit_if_the_shortest_is() {
             let k = FiniteK::new(k).expect("k is at least 2");
             let more = match rules {
                 Rules::Center(corners) => check_within::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => check_within::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => check_within::<Corners>(&grid, gap, k, seed),
             };
             seen.iter_mut().zip(more).for_each(|(seen, more)| *seen += more);
         }

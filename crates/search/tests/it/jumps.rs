@@ -98,7 +98,7 @@ fn cut_jumps_lose_no_optimum() {
         let grid = Arc::new(grid(seed));
         let on = |rules: Rules| match rules {
             Rules::Center(rule) => check::<Centers>(&grid, rule, seed),
-            Rules::Corner(rule) => check::<Corners>(&grid, rule, seed),
+            Rules::Corner(rule) | Rules::CenterGap(rule) => check::<Corners>(&grid, rule, seed),
         };
         Rules::ALL.map(on).iter().fold([0; 3], |sums, one| [0, 1, 2].map(|i| sums[i] + one[i]))
     });

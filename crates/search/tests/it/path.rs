@@ -101,7 +101,9 @@ fn found(result: Result<(), BrokenPath>, waypoints: &[Vertex]) -> Option<(&'stat
 fn check_under(grid: &Arc<Grid>, rules: Rules, path: &Path) -> Result<(), BrokenPath> {
     match rules {
         Rules::Center(rule) => path.check(&FreeSpace::<Centers>::new(Arc::clone(grid), rule)),
-        Rules::Corner(rule) => path.check(&FreeSpace::<Corners>::new(Arc::clone(grid), rule)),
+        Rules::Corner(rule) | Rules::CenterGap(rule) => {
+            path.check(&FreeSpace::<Corners>::new(Arc::clone(grid), rule))
+        }
     }
 }
 
@@ -198,7 +200,7 @@ fn an_edited_cell_under_a_path_breaks_the_segment_that_meets_it() {
         for (rules, broken) in Rules::ALL.into_iter().zip(&mut broken) {
             *broken += match rules {
                 Rules::Center(rule) => check_edits::<Centers>(seed, rule),
-                Rules::Corner(rule) => check_edits::<Corners>(seed, rule),
+                Rules::Corner(rule) | Rules::CenterGap(rule) => check_edits::<Corners>(seed, rule),
             };
         }
     }

@@ -203,7 +203,7 @@ fn smoothed_paths_keep_all_promises() {
             let k = FiniteK::new(k).expect("k is at least 2");
             let counts = match rules {
                 Rules::Center(corners) => check_map::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => check_map::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => check_map::<Corners>(&grid, gap, k, seed),
             };
             shorter.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
         }
@@ -278,7 +278,7 @@ fn check_paths(drawing: &str, rules: Rules, path: &[(i32, i32)], expected: [&[(i
             let space = FreeSpace::<Centers>::new(grid, corners);
             [smooth(&space, &path), pull_taut(&space, &path)]
         }
-        Rules::Corner(gap) => {
+        Rules::Corner(gap) | Rules::CenterGap(gap) => {
             let space = FreeSpace::<Corners>::new(grid, gap);
             [smooth(&space, &path), pull_taut(&space, &path)]
         }
@@ -482,7 +482,7 @@ fn guarantees_bound_the_any_angle_optimum() {
             let k = FiniteK::new(k).expect("k is at least 2");
             *count += match rules {
                 Rules::Center(corners) => check_bounds::<Centers>(&grid, corners, k, seed),
-                Rules::Corner(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => check_bounds::<Corners>(&grid, gap, k, seed),
             };
         }
     }

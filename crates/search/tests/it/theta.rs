@@ -106,7 +106,7 @@ fn check_under(
 ) -> [usize; 2] {
     match rules {
         Rules::Center(corners) => check_all::<Centers>(grid, corners, k, queries),
-        Rules::Corner(gap) => check_all::<Corners>(grid, gap, k, queries),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => check_all::<Corners>(grid, gap, k, queries),
     }
 }
 
@@ -198,7 +198,7 @@ fn check_paths(
     let (query, k) = (Ends::new(start, goal), FiniteK::new(k).expect("k is at least 2"));
     let paths = match rules {
         Rules::Center(corners) => paths::<Centers>(grid, k, corners, query),
-        Rules::Corner(gap) => paths::<Corners>(grid, k, gap, query),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => paths::<Corners>(grid, k, gap, query),
     };
     let expected = expected.map(|way| way.iter().map(|&at| at.into()).collect::<Vec<Vertex>>());
     assert_eq!(paths, expected, "k = {k}, {rules}");

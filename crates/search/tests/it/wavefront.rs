@@ -111,7 +111,7 @@ fn waves(grid: &Arc<Grid>, rules: Rules, k: FiniteK) -> Box<dyn Waves> {
     }
     match rules {
         Rules::Center(corners) => on::<Centers>(grid, k, corners),
-        Rules::Corner(gap) => on::<Corners>(grid, k, gap),
+        Rules::Corner(gap) | Rules::CenterGap(gap) => on::<Corners>(grid, k, gap),
     }
 }
 

@@ -87,7 +87,7 @@ fn on_all(seeds: std::ops::Range<u64>, test: &mut impl Test) {
         for rules in Rules::ALL {
             match rules {
                 Rules::Center(corners) => test.on::<Centers>(corners, k, seed),
-                Rules::Corner(gap) => test.on::<Corners>(gap, k, seed),
+                Rules::Corner(gap) | Rules::CenterGap(gap) => test.on::<Corners>(gap, k, seed),
             }
         }
     }

@@ -187,7 +187,7 @@ fn on_all(grids: impl Iterator<Item = (u64, Grid)>, suite: &mut impl Suite) {
     for (rules, k) in Rules::ALL.into_iter().flat_map(|rules| [(rules, 2), (rules, 3)]) {
         match rules {
             Rules::Center(corners) => on_one::<Centers>(&grids, corners, k, suite),
-            Rules::Corner(gap) => on_one::<Corners>(&grids, gap, k, suite),
+            Rules::Corner(gap) | Rules::CenterGap(gap) => on_one::<Corners>(&grids, gap, k, suite),
         }
     }
 }
