@@ -1,7 +1,7 @@
 // The interfaces between the modules of the page. The modules are JavaScript with types in comments, which
 // the tests check against this file.
 
-import type { EngineInfo, Motion } from "./mediant/mediant.js";
+import type { EngineInfo, Motion, Waypoints } from "./mediant/mediant.js";
 
 /** A cell, or a vertex: x to the right, y down, from 0. At centers a vertex is its cell; at corners it is
  *  the top left corner of its cell. */
@@ -117,7 +117,7 @@ export interface LaneAnswer {
   goal: Point;
   status: "found" | "unreachable" | "nearest" | "invalid";
   /** Waypoints x, y, x, y, … in vertices of the lane's placement; empty if there is none. */
-  path: Int32Array;
+  path: Waypoints;
   /** In cells. */
   length: number;
   /** The cost of the path where steps cost differently; null where they do not. */
@@ -131,15 +131,16 @@ export interface LaneAnswer {
   /** `optimal(3)`, `suboptimal`, … */
   guarantee: string;
   optimal: boolean;
-  /** The certificate: no path at any angle is shorter than length / bound. */
+  /** The certificate: no path at any angle is shorter than length / bound. At centers it is the optimum at any
+   *  angle itself, or the straight line. */
   bound: number | null;
   /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are
    *  `verticesPerRow` in a row. */
   steps: Uint32Array | null;
   verticesPerRow: number;
-  /** A shortest path: at any angle (corners), or over the lane's N(k) (centers). Comes a little later. Where
-   *  steps cost differently its length is its cost, over N(k). */
-  reference: { length: number; path: Int32Array; what: "any" | "k" } | null;
+  /** A shortest path at any angle. Comes a little later. Where steps cost differently it is over the lane's
+   *  N(k), and its length is its cost. */
+  reference: { length: number; path: Waypoints; what: "any" | "k" } | null;
   /** The error of an invalid query, as a sentence, with its code. */
   error: { code: string; message: string } | null;
 }

@@ -7,7 +7,7 @@ use std::{
 
 use js_sys::Uint32Array;
 use mediant::{
-    PlacementKind, Space as Inner, Vertex,
+    Space as Inner, Vertex,
     search::{NodeEvent, Observer},
 };
 use wasm_bindgen::prelude::*;
@@ -169,9 +169,9 @@ impl Trace {
 /// The vertices that were expanded, and those that were only generated.
 type Expanded = (Vec<Vertex>, Vec<Vertex>);
 
-/// The number of vertices in a row.
+/// The number of vertices in a row: of corners where paths bend at corners, also between centers.
 fn row_of(space: &Inner) -> u32 {
-    space.map().width() + u32::from(space.motion().rules.placement() == PlacementKind::Corner)
+    space.map().width() + u32::from(space.motion().rules.gap().is_some())
 }
 
 /// The error for a trace that a search is writing to.

@@ -32,8 +32,7 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "run builtin:cave --k 13",
-        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or placement \
-         corner for k = any",
+        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or any",
     );
     check(
         "run builtin:cave --k -3",

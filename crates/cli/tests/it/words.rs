@@ -70,8 +70,7 @@ fn neighbors_stand_for_k() {
     );
     check(
         "run builtin:cave --neighbors 8192",
-        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or placement \
-         corner for k = any",
+        "no engine searches center, corners never, k = 13: choose a k from 2 to 12 (4 to 4096 neighbors), or any",
     );
     for command in [
         "run builtin:cave",

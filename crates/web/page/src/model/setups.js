@@ -101,3 +101,18 @@ export function radius(value) {
   const thousandths = whole(value * 1000, 0, LARGEST_RADIUS * 1000);
   return thousandths === undefined ? undefined : thousandths / 1000;
 }
+
+/**
+ * Whether paths bend at corners: at corners all do, between centers those at any angle.
+ * @param {Pick<LaneSetup, "k" | "placement">} setup
+ */
+export const bendsAtCorners = ({ k, placement }) => placement === "corner" || k === "any";
+
+/**
+ * The rule at gaps: between centers the one that connects what the moves connect.
+ * @param {Pick<LaneSetup, "placement" | "corners" | "gap">} setup
+ */
+export function gapOf({ placement, corners, gap }) {
+  if (placement === "corner") return gap;
+  return corners === "always" ? "open" : "closed";
+}

@@ -37,8 +37,11 @@ export class Bounds extends EventTarget {
 
   /** @param {LaneSetup} setup @param {ByK} byK */
   async #ask(setup, byK) {
-    const bounds = await this.#lanes.bounds(setup, KS);
-    KS.forEach((k, index) => byK.set(k, bounds[index] ?? null));
+    // At centers none holds against paths that bend at corners.
+    if (setup.placement === "corner") {
+      const bounds = await this.#lanes.bounds(setup, KS);
+      KS.forEach((k, index) => byK.set(k, bounds[index] ?? null));
+    }
     byK.set("any", 1);
     this.dispatchEvent(new CustomEvent("change"));
   }

@@ -19,8 +19,9 @@ const NARROW_AT_CENTERS = ["subgoal", "hpa", "chpa"];
  */
 export function takes(engine, setup) {
   const { k, placement, corners } = setup;
+  // At any angle paths lead between corners and between centers.
+  if (k === "any") return engine.any;
   if (!engine.placements.includes(placement)) return false;
-  if (k === "any") return engine.any && placement === "corner";
   if (k > engine.maxK) return false;
   if (placement === "corner" || !NARROW_AT_CENTERS.includes(engine.name)) return true;
   return k === 2 || (k === 3 && corners === "never");
@@ -45,7 +46,7 @@ export function mended(wanted, change, engines, onLand = false) {
     return { setup: { ...setup, engine: "astar" }, said };
   }
   if (!engine || takes(engine, setup)) return { setup, said: "" };
-  return change.engine === undefined ? withEngine(setup, change, engines) : withMotion(setup, engine);
+  return change.engine === undefined ? withEngine(setup, engines) : withMotion(setup, engine);
 }
 
 /** @param {LaneSetup} setup @param {EngineInfo} engine */
@@ -58,7 +59,7 @@ function withMotion(setup, engine) {
     mended.placement = only === "center" ? "center" : "corner";
     said.push(`${name} has its vertices at ${mended.placement}s.`);
   }
-  if (setup.k === "any" && !(engine.any && mended.placement === "corner")) mended.k = 3;
+  if (setup.k === "any" && !engine.any) mended.k = 3;
   else if (setup.k !== "any" && setup.k > engine.maxK) mended.k = engine.maxK;
   if (mended.placement === "center" && NARROW_AT_CENTERS.includes(engine.name)) {
     if (mended.k !== 2) Object.assign(mended, { k: 3, corners: "never" });
@@ -76,25 +77,13 @@ function kRange(engine, setup) {
   return `k from 2 to ${most}${setup.placement === "center" && engine.any ? " at centers" : ""}`;
 }
 
-/** @param {LaneSetup} setup @param {Partial<LaneSetup>} change @param {readonly EngineInfo[]} engines */
-function withEngine(setup, change, engines) {
+/** @param {LaneSetup} setup @param {readonly EngineInfo[]} engines */
+function withEngine(setup, engines) {
   const mended = { ...setup };
   const name = engineName(setup.engine);
-  if (setup.k === "any" && change.placement === "center") {
-    mended.k = 3;
-    const { setup: finite } = mendedEngine(mended, engines);
-    return { setup: finite, said: "k = ∞ has its vertices at corners: k is 3 now." };
-  }
   if (setup.k === "any") {
-    mended.placement = "corner";
-    const engine = engines.find((engine) => engine.name === setup.engine);
-    if (!engine?.any) mended.engine = "anya";
-    const moved = setup.placement === "corner" ? "" : " at corners";
-    const subject = mended.engine === setup.engine ? "k = ∞ needs" : `${name} takes a finite k.`;
-    const said =
-      mended.engine === setup.engine
-        ? `${subject} vertices at corners.`
-        : `${subject} Anya searches every angle${moved}. ${name} is back when k is finite again.`;
+    mended.engine = "anya";
+    const said = `${name} takes a finite k. Anya searches every angle. ${name} is back when k is finite again.`;
     return { setup: mended, said };
   }
   const { setup: other } = mendedEngine(mended, engines);

@@ -83,7 +83,10 @@ function certificate(lane) {
 function worth(setup, bound) {
   if (setup.k === "any") return "N(∞): no path at any angle is shorter, on any map.";
   if (bound === undefined) return "";
-  if (bound === null) return `N(${setup.k}): there is no bound if corners are always cut.`;
+  if (setup.placement === "center") {
+    return `N(${setup.k}): no bound holds at centers against paths that bend at corners of walls.`;
+  }
+  if (bound === null) return `N(${setup.k}): there is no bound.`;
   return `N(${setup.k}): at most ${over(bound)} longer than the shortest path at any angle, on any map.`;
 }
 

@@ -5,6 +5,7 @@
 /** @typedef {import("../../types").LaneState} LaneState */
 
 import { ENGINES } from "../model/described.js";
+import { bendsAtCorners, gapOf } from "../model/setups.js";
 
 /** @param {string} engine */
 export const engineName = (engine) => ENGINES[engine]?.name ?? engine;
@@ -42,10 +43,9 @@ export function promise(setup, guarantee, onLand) {
 
 /** The placement, the rule and the smoothing, in short. @param {LaneSetup} setup */
 export function motionText(setup) {
-  const rule =
-    setup.placement === "center"
-      ? { never: "never cut", one: "cut one", always: "cut always" }[setup.corners]
-      : { open: "gaps open", closed: "gaps closed" }[setup.gap];
+  const rule = bendsAtCorners(setup)
+    ? { open: "gaps open", closed: "gaps closed" }[gapOf(setup)]
+    : { never: "never cut", one: "cut one", always: "cut always" }[setup.corners];
   const smooth = setup.smooth ? `, smoothed ${setup.smooth}` : "";
   return `${setup.placement === "center" ? "centers" : "corners"}, ${rule}${smooth}`;
 }

@@ -1,12 +1,14 @@
 // The files of a lane's worker for other programs: its search for the Posthoc visualizer, and a picture.
 
-/** @import { Grid, Index, Space } from "../../mediant/mediant.js" */
+/** @import { Grid, Index, Space, Waypoints } from "../../mediant/mediant.js" */
 /** @import { Ask, Order } from "./protocol.js" */
 /** @import { Say } from "./search.js" */
 /** @import { Session } from "./session.js" */
 import { Picture, Trace } from "../../mediant/mediant.js";
+import { bendsAtCorners } from "../model/setups.js";
 import { sentence, textOf } from "./protocol.js";
 import { questionOf, sliced } from "./search.js";
+import { offsetOf } from "./walk.js";
 
 /** The most events of a trace: the visualizer holds no more, and the text takes 100 bytes for each. */
 const MOST_EVENTS = 2_000_000;
@@ -59,12 +61,15 @@ export function* write(session, ask, order, say) {
  * @param {Ask} ask
  * @param {Extract<Order, { type: "picture" }>} order
  * @param {Trace} trace
- * @param {Int32Array | undefined} path
+ * @param {Waypoints | undefined} path
  * @returns {Blob}
  */
 function picture(session, { setup, start, goal, radius }, { format, overlay }, trace, path) {
   const space = /** @type {Space} */ (session.space);
-  const picture = new Picture(/** @type {Grid} */ (session.grid), setup.placement);
+  // What is searched are corners, if paths bend there.
+  const [placement, shift] = bendsAtCorners(setup) ? ["corner", offsetOf(setup.placement)] : ["center", 0];
+  const picture = new Picture(/** @type {Grid} */ (session.grid), /** @type {"center" | "corner"} */ (placement));
+  const moved = (/** @type {ArrayLike<number>} */ at) => Float64Array.from(at, (number) => number + shift);
   const field = overlay === "distances" || overlay === "flow" ? space.field(goal) : null;
   try {
     if (field) {
@@ -73,10 +78,10 @@ function picture(session, { setup, start, goal, radius }, { format, overlay }, t
       picture.searched(trace);
     }
     if (path) {
-      picture.path(/** @type {Index} */ (session.index).setup, path);
+      picture.path(/** @type {Index} */ (session.index).setup, moved(path));
     }
-    picture.start(start);
-    picture.goal(goal);
+    picture.start(moved(start));
+    picture.goal(moved(goal));
     if (radius) {
       picture.radius(radius);
     }

@@ -3,6 +3,7 @@
 
 /** @import { Change, LaneAnswer, LaneSetup, LaneState, Motion, Point, Rect } from "../../types.js" */
 /** @import { EngineInfo, Options } from "../../mediant/mediant.js" */
+import { bendsAtCorners, gapOf } from "../model/setups.js";
 
 /**
  * The news that a worker lacks of the model's map: nothing, the map, or the cells of a rectangle.
@@ -123,7 +124,7 @@ export const MOST_CELLS = 4096 * 4096;
  */
 export function motionOf(setup) {
   const { k, placement } = setup;
-  return placement === "center" ? { k, placement, corners: setup.corners } : { k, placement, gap: setup.gap };
+  return bendsAtCorners(setup) ? { k, placement, gap: gapOf(setup) } : { k, placement, corners: setup.corners };
 }
 
 /**

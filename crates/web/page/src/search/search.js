@@ -3,10 +3,11 @@
 // waiting.
 
 /** @import { LaneAnswer, Point } from "../../types.js" */
-/** @import { Answer, Planner, Trace, Wishes } from "../../mediant/mediant.js" */
+/** @import { Answer, Planner, Trace, Waypoints, Wishes } from "../../mediant/mediant.js" */
 /** @import { Ask, FromLane } from "./protocol.js" */
 /** @import { Session } from "./session.js" */
 import { Trace as NewTrace } from "../../mediant/mediant.js";
+import { bendsAtCorners } from "../model/setups.js";
 import { sentence, textOf } from "./protocol.js";
 
 /** @typedef {(message: FromLane, transfer?: Transferable[]) => void} Say */
@@ -120,6 +121,8 @@ export function* search(session, ask, say) {
     const { status, path, distance, cost, length } = found.answer;
     answer.status = status === "stopped" ? "unreachable" : status;
     answer.path = path ?? answer.path;
+    const least = found.answer.anyAngleLowerBound;
+    answer.bound = least ? Math.max(distance / least, 1) : null;
     answer.length = length ?? distance;
     answer.cost = cost ?? null;
     answer.expanded = recording.expanded;
@@ -159,8 +162,8 @@ function emptyAnswer(session, { start, goal, setup }) {
     error: null,
     guarantee: index?.guarantee ?? "",
     optimal: index?.optimal ?? false,
-    bound: index?.bound ?? null,
-    verticesPerRow: (grid?.width ?? 0) + (setup.placement === "corner" ? 1 : 0),
+    bound: null,
+    verticesPerRow: (grid?.width ?? 0) + (bendsAtCorners(setup) ? 1 : 0),
   };
 }
 
@@ -274,7 +277,7 @@ export function* refine(session, ask, answer, timed, say) {
   }
   if (answer.path.length && !(ask.hurry && session.judgment > LITTLE)) {
     const best = yield* optimum(session, ask, answer);
-    const what = setup.placement === "corner" && answer.cost === null ? "any" : "k";
+    const what = answer.cost === null ? "any" : "k";
     say({ type: "reference", number, reference: { ...best, what } });
     yield;
   }
@@ -297,14 +300,14 @@ export const isTimed = (ask, answer) => !ask.hurry && answer.ms < SHORT;
  * @param {Session} session
  * @param {Ask} ask
  * @param {LaneAnswer} answer
- * @returns {Generator<void, { length: number, path: Int32Array }>}
+ * @returns {Generator<void, { length: number, path: Waypoints }>}
  */
 function* optimum(session, ask, { path, length, cost, guarantee }) {
   if (cost !== null) {
     // Every engine that knows costs finds the cheapest path.
     return { length: cost, path };
   }
-  if (guarantee === `optimal(${ask.setup.placement === "corner" ? "any" : ask.setup.k})`) {
+  if (guarantee === "optimal(any)") {
     return { length, path };
   }
   const planner = session.judge(ask);

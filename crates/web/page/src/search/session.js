@@ -182,7 +182,7 @@ export class Session {
   }
 
   /**
-   * The planner for the optimum: at any angle at corners, over N(k) at centers.
+   * The planner for the optimum: at any angle, where steps cost differently over N(k).
    * @param {Ask} ask
    * @returns {Planner}
    */
@@ -192,15 +192,11 @@ export class Session {
     }
     const began = performance.now();
     const space = /** @type {Space} */ (this.space);
-    if (setup.placement === "center") {
-      this.#judge = planned(space, setup.k === "any" || setup.k > 3 ? "astar" : "jps-block");
-    } else {
-      const grid = space.grid;
-      const free = grid.space({ k: "any", placement: setup.placement, gap: setup.gap });
-      this.#judge = planned(free, "anya");
-      grid.free();
-      free.free();
-    }
+    const grid = space.grid;
+    const free = grid.space(motionOf({ ...setup, k: "any" }));
+    this.#judge = planned(free, "anya");
+    grid.free();
+    free.free();
     this.judged.making = performance.now() - began;
     return this.#judge;
   }

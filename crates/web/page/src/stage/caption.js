@@ -128,7 +128,7 @@ const short = (value) => (value >= 100 ? value.toFixed(0) : String(Number(value.
  *  @param {{ search: string, isBeaten: boolean, onLand: boolean }} shown */
 function legendOf(overlay, field, setup, { search, isBeaten, onLand }) {
   if (overlay === "search" && search) {
-    const what = setup.placement === "corner" ? "at any angle" : "over N(k)";
+    const what = onLand ? "over N(k)" : "at any angle";
     const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
     if (search === "labels") return `${optimum}<span>no search: hub labels</span>`;
     return `${optimum}<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>

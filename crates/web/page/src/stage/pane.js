@@ -2,6 +2,7 @@
 // `ground`: free cells, colors of the search or of a field. `walls`: grid lines, walls, lines and glyphs.
 // `top`: marks, path, agents, start and goal, and the cursor.
 
+import { bendsAtCorners } from "../model/setups.js";
 import { engineName, hasNoSearch, kText } from "../panels/words.js";
 import { Caption, element, Legend, sentenceOf } from "./caption.js";
 import { SearchHeat } from "./heat.js";
@@ -63,6 +64,10 @@ export class Pane {
   /** From a vertex to its place in cells. */
   get shift() {
     return this.setup.placement === "corner" ? 0 : 0.5;
+  }
+  /** The same for the vertices that a search expands. */
+  get #searchedShift() {
+    return bendsAtCorners(this.setup) ? 0 : 0.5;
   }
   get frame() {
     return this.stage.view.frame(this.width, this.height);
@@ -129,7 +134,7 @@ export class Pane {
   #advance() {
     const { model, player, theme } = this.stage;
     const answer = model.overlay === "search" ? (this.state?.answer ?? null) : null;
-    const rows = model.height + (this.setup.placement === "corner" ? 1 : 0);
+    const rows = model.height + (bendsAtCorners(this.setup) ? 1 : 0);
     return this.#heat.show(answer, answer ? player.shown(this.lane) : 0, theme, rows);
   }
 
@@ -161,7 +166,7 @@ export class Pane {
     if (field) this.#field.drawColors(context, frame, field, theme);
     // The land shines through the search.
     context.globalAlpha = land.isShown ? OVER_LAND : 1;
-    if (!this.#heat.isSparse) this.#heat.draw(context, frame, this.shift - 0.5, drawn);
+    if (!this.#heat.isSparse) this.#heat.draw(context, frame, this.#searchedShift - 0.5, drawn);
     context.globalAlpha = 1;
     context.restore();
   }
@@ -202,7 +207,7 @@ export class Pane {
     const context = this.#layers.top;
     const answer = this.state?.answer;
     context.clearRect(0, 0, frame.width, frame.height);
-    this.#heat.drawMarks(context, frame, shift - 0.5);
+    this.#heat.drawMarks(context, frame, this.#searchedShift - 0.5);
     if (answer && player.arrived(this.lane) && answer.status !== "invalid") {
       const look = { lane: this.lane, shift, radius: model.radius, isFaint: this.#isFaint(now) };
       if (answer.status === "nearest") drawMissing(context, frame, answer, shift, theme);
