@@ -153,12 +153,19 @@ impl BitMatrix {
         blocked: bool,
     ) {
         let run = if is_vertical { self.run_of_column(line, first, end) } else { self.run(line, first, end) };
-        let (words, other, union) = (self.words.make_mut(), &*other.words, union.words.make_mut());
-        run.for_each(|word, bits| {
-            set_word(words, word, bits, blocked);
-            let joined = words[word] | other[word];
-            union[word] = union[word] & !bits | joined & bits;
-        });
+        let words = self.words.make_mut();
+        let (other, union) = (&other.words[..words.len()], &mut union.words.make_mut()[..words.len()]);
+        if blocked {
+            run.for_each(|word, bits| {
+                words[word] |= bits;
+                union[word] |= bits;
+            });
+        } else {
+            run.for_each(|word, bits| {
+                words[word] &= !bits;
+                union[word] &= !bits | other[word];
+            });
+        }
     }
 
     const fn run(&self, y: i32, first: i32, end: i32) -> BitRun {

@@ -69,9 +69,8 @@ impl<'g> Cone<'g> {
         let Node { root: number, line, left, right } = node;
         let away = Place::parts(line) - root.y;
         let down = away.signum();
-        let edge = |ray| Edge::on(IntervalEnd::new(ray, root.x, away * down));
         let (ahead, stop) = (row_ahead(rows, line, down), goal.stop(down));
-        Self { root, number, line, down, stop, left: edge(left), right: edge(right), ahead }
+        Self { root, number, line, down, stop, left: Edge::on(left), right: Edge::on(right), ahead }
     }
 
     /// The cone of a successor on the next line, from a root that sees it.
@@ -90,7 +89,7 @@ impl<'g> Cone<'g> {
 
     /// The interval of the cone as a node.
     pub(super) fn node(&self) -> Node {
-        let [left, right] = [self.left, self.right].map(|edge| self.end(edge).ray);
+        let [left, right] = [self.left, self.right].map(|edge| self.end(edge));
         Node { root: self.number, line: self.line, left, right }
     }
 

@@ -4,7 +4,7 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 
 use mediant_grid::{
     Corners, FreeSpace, Vertex,
-    sight::{Place, Ray},
+    sight::{IntervalEnd, Place, Ray},
 };
 
 use super::{history::RootHistory, norm::Norm};
@@ -24,16 +24,16 @@ pub(super) struct Root<L> {
 
 /// A search node: the part of a line that a root sees.
 ///
-/// A *cone node* is the interval between two rays on a line other than the root's. A *flat node* is a vertex
-/// at which a path may turn on the root's own line; `left.dx` is its distance to the right, in parts of a
-/// cell. A node on line [`FINAL`](Self::FINAL) is the goal, between vertices, seen by a root at its row of
-/// cells.
+/// A *cone node* is the interval between two rays on a line other than the root's, with the steps of the rays:
+/// a search that goes on with it divides nothing. A *flat node* is a vertex at which a path may turn on the
+/// root's own line; the ray of `left` leads from the root to it. A node on line [`FINAL`](Self::FINAL) is the
+/// goal, between vertices, seen by a root at its row of cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,
     pub(super) line: i32,
-    pub(super) left: Ray,
-    pub(super) right: Ray,
+    pub(super) left: IntervalEnd,
+    pub(super) right: IntervalEnd,
 }
 
 impl Node {
@@ -42,7 +42,14 @@ impl Node {
 
     /// The goal, seen by a root.
     pub(super) const fn of_goal(root: u32) -> Self {
-        Self { root, line: Self::FINAL, left: Ray::VERTICAL, right: Ray::VERTICAL }
+        Self::aside(root, Self::FINAL, 0)
+    }
+
+    /// A flat node, so many parts of a cell to the right of its root.
+    pub(super) const fn aside(root: u32, line: i32, dx: i32) -> Self {
+        let mut to = IntervalEnd::standing(0);
+        to.ray = Ray { dx, dy: 1 };
+        Self { root, line, left: to, right: to }
     }
 
     pub(super) const fn is_of_goal(self) -> bool {

@@ -72,6 +72,12 @@ impl Goal {
         &self.entries[(down < 0) as usize]
     }
 
+    /// Whether a node on this line may hold the goal: the lines at it, and those before rows that touch it.
+    #[inline]
+    pub(super) const fn may_be_on(&self, line: i32) -> bool {
+        line.wrapping_sub(self.at.floor().y - 1) as u32 <= 2
+    }
+
     /// Whether the root of a cone sees the goal through its interval, on the line where this is asked.
     #[inline]
     pub(super) fn is_seen_by(&self, cone: &Cone<'_>) -> bool {

@@ -50,7 +50,7 @@ use crate::{
 /// ```
 ///
 /// `S` is how the planner holds the free space: by reference, or, where both belong in one struct, by `Arc`.
-/// Its scratch memory grows with the searches, not with the map: 40 bytes for each node and 24 for each root
+/// Its scratch memory grows with the searches, not with the map: 72 bytes for each node and 24 for each root
 /// (48 over N(k)) of the largest, and 2 KB for each block of 16 × 16 vertices in which any had a root.
 /// The events of its search name the roots of nodes, so the expansions of one root differ in f alone.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 
 use mediant_grid::{
     BitMatrix, Corners, FreeSpace, Vertex,
-    sight::{IntervalEnd, Place, Ray, Runs, Side, Window, row_ahead},
+    sight::{IntervalEnd, Place, Runs, Side, Window, row_ahead},
 };
 
 use super::{
@@ -41,7 +41,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             if first < end {
                 self.see_goal(0, (line, down), first);
                 let away = (Place::parts(line + down) - at.y) * down;
-                let [left, right] = [first, end].map(|x| Ray::through(x, at.x, away));
+                let [left, right] = [first, end].map(|x| IntervalEnd::corner(x, at.x, away));
                 self.push(Node { root: 0, line: line + down, left, right });
             }
         }
@@ -77,11 +77,13 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
 
     /// Whether the node holds the goal, and a path from its root may end there.
     pub(super) fn reaches_goal(&self, node: Node) -> bool {
+        if !self.goal.may_be_on(node.line) {
+            return node.is_of_goal()
+                && self.goal.may_be_entered(self.space, self.frontier.root(node.root).at);
+        }
         let root = self.frontier.root(node.root).at;
-        let found = if node.is_of_goal() {
-            true
-        } else if Place::parts(node.line) == root.y {
-            self.goal.at == Place { x: root.x + node.left.dx, y: root.y }
+        let found = if Place::parts(node.line) == root.y {
+            self.goal.at == Place { x: root.x + node.left.ray.dx, y: root.y }
         } else {
             Cone::new(self.rows, root, node, &self.goal).holds(&self.goal)
         };
@@ -115,7 +117,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             }
             for i in 0..self.next.len() {
                 let Successor { root, left, right } = self.next[i];
-                self.push(Node { root, line: cone.line + cone.down, left: left.ray, right: right.ray });
+                self.push(Node { root, line: cone.line + cone.down, left, right });
             }
             break;
         }
@@ -125,7 +127,7 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
     fn push(&mut self, node: Node) {
         let root = self.frontier.root(node.root);
         let n = (Place::parts(node.line) - root.at.y).abs();
-        let [left, right] = [node.left, node.right].map(|ray| ray.column(root.at.x, n));
+        let [left, right] = [node.left, node.right].map(|end| end.ray.column(root.at.x, n));
         let interval = Interval { root: root.at, line: node.line, left, right };
         self.add(node, self.frontier.norm().bound_through(interval, self.goal.at));
     }
@@ -173,15 +175,14 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
         let start = self.frontier.root(root);
         let norm = self.frontier.norm();
         let h = norm.bound(start.at.to(at)) + norm.bound(at.to(goal));
-        let left = Ray { dx: at.x - start.at.x, dy: 1 };
-        self.add(Node { root, line: at.floor().y, left, right: left }, h);
+        self.add(Node::aside(root, at.floor().y, at.x - start.at.x), h);
     }
 
     /// Queues the successors of a flat node: paths that turn up or down at its vertex, and the next flat node
     /// on the line.
     fn expand_flat(&mut self, node: Node, root: Place) {
-        let right = node.left.dx.signum();
-        let at = Place { x: root.x + node.left.dx, ..root }.floor();
+        let right = node.left.ray.dx.signum();
+        let at = Place { x: root.x + node.left.ray.dx, ..root }.floor();
         let (passed, entered) = if right > 0 { (at.x - 1, at.x) } else { (at.x, at.x - 1) };
         // The goal, at which this path may not end. No path passes a closed gap.
         if self.space.is_closed_gap(at) {
@@ -195,8 +196,9 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
             let Some(number) = self.frontier.add_root(node.root, at) else { continue };
             let far = if right > 0 { strip.first_blocked(at.x, i32::MAX) } else { strip.run_start(at.x, 0) };
             self.see_goal(number, (at.y, down), entered);
-            let far = Ray { dx: far - at.x, dy: 1 };
-            let (left, right) = if right > 0 { (Ray::VERTICAL, far) } else { (far, Ray::VERTICAL) };
+            let far = IntervalEnd::corner(far, Place::parts(at.x), Place::parts(1));
+            let near = IntervalEnd::standing(at.x);
+            let (left, right) = if right > 0 { (near, far) } else { (far, near) };
             self.push(Node { root: number, line: at.y + down, left, right });
         }
         self.push_flat(node.root, at, right);
