@@ -118,12 +118,12 @@ impl<'g> Cone<'g> {
     }
 
     /// Advances from line to line while the cone crosses one run of free cells and no corner appears at which
-    /// a path may bend. Returns whether the interval holds the goal.
+    /// a path may bend.
     #[inline]
-    pub(super) fn advance(&mut self, goal: &Goal) -> bool {
+    pub(super) fn advance(&mut self, goal: &Goal) -> Ahead {
         loop {
             if !self.is_turning() && self.cross_free_rows(self.stop) && self.holds(goal) {
-                return true;
+                return Ahead::Goal;
             }
             let (left, right) = (self.left.end.next(), self.right.end.next());
             let low = self.left.here().floor().min(left.floor());
@@ -133,13 +133,16 @@ impl<'g> Cone<'g> {
             } else {
                 self.walls(self.ahead, (left, right), (low, high))
             };
-            let Some((left_wall, right_wall)) = walls else { return false };
+            let (left_wall, right_wall) = match walls {
+                Ok(walls) => walls,
+                Err(ahead) => return ahead,
+            };
             self.line += self.down;
             self.ahead = self.ahead.below(self.down);
             self.left.advance(left, left_wall);
             self.right.advance(right, right_wall);
             if self.holds(goal) {
-                return true;
+                return Ahead::Goal;
             }
         }
     }
@@ -183,19 +186,19 @@ impl<'g> Cone<'g> {
         is_stopped
     }
 
-    /// Where walls cut the interval off on its left and right before the next line; `None` if it splits,
-    /// ends, or if an obstacle hides something. `left` and `right` are its ends on the next line if no
-    /// obstacle is in the way, `low` to `high` the columns that are crossed.
+    /// Where walls cut the interval off on its left and right before the next line; what is ahead if it
+    /// splits, ends, or if an obstacle hides something. `left` and `right` are its ends on the next line if
+    /// no obstacle is in the way, `low` to `high` the columns that are crossed.
     #[inline(always)]
     fn walls(
         &self,
         ahead: impl Runs,
         (left, right): (Crossing, Crossing),
         (low, high): (i32, i32),
-    ) -> Option<(Wall, Wall)> {
+    ) -> Result<(Wall, Wall), Ahead> {
         let (first, last) = (self.left.here().floor(), self.right.here().ceil());
         if self.is_at_corner(&self.left, first - 1, ahead) || self.is_at_corner(&self.right, last, ahead) {
-            return None;
+            return Err(Ahead::Corner);
         }
         if ahead.first_blocked(low, high) == high {
             // A vertical beside an obstacle is a wall from here on.
@@ -204,11 +207,11 @@ impl<'g> Cone<'g> {
             };
             let walls = (stands(&self.left, first, first - 1), stands(&self.right, last, last));
             // Along a wall the interval may shrink to a point.
-            return (left.floor() < right.ceil()).then_some(walls);
+            return if left.floor() < right.ceil() { Ok(walls) } else { Err(Ahead::Nothing) };
         }
         let inside = ahead.first_free(first, last);
         if inside == last {
-            return None;
+            return Err(Ahead::Nothing);
         }
         let start = if inside > first { inside } else { ahead.run_start(first, low) };
         let end = ahead.first_blocked(inside, high);
@@ -218,12 +221,15 @@ impl<'g> Cone<'g> {
         let shades = inside > first && Place::parts(inside) > self.root.x
             || end < last && Place::parts(end) < self.root.x;
         let empties = left.floor() >= end || right.ceil() <= start;
-        if splits || shades || empties {
-            return None;
+        if splits || shades {
+            return Err(Ahead::Corner);
+        }
+        if empties {
+            return Err(Ahead::Nothing);
         }
         let left_wall = inside > first || Side::Left.is_outside(left, start);
         let right_wall = end < last || Side::Right.is_outside(right, end);
-        Some((left_wall.then_some(start), right_wall.then_some(end)))
+        Ok((left_wall.then_some(start), right_wall.then_some(end)))
     }
 
     /// Whether the obstacle beside an edge, in column `outer`, begins or ends on this line: then a path may
@@ -233,6 +239,17 @@ impl<'g> Cone<'g> {
         let behind = || edge.is_wall || self.behind().is_blocked(outer);
         edge.here().is_vertex() && ahead.is_blocked(outer) != behind()
     }
+}
+
+/// What a cone comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ahead {
+    /// The goal.
+    Goal,
+    /// A row in which it splits, or a corner at which a path may bend.
+    Corner,
+    /// A row that it does not enter.
+    Nothing,
 }
 
 /// A successor of a cone node: an interval of the next line.

@@ -6,7 +6,7 @@ use mediant_grid::{
 };
 
 use super::{
-    cone::{Cone, Successor},
+    cone::{Ahead, Cone, Successor},
     frontier::{Frontier, Node},
     goal::Goal,
     norm::{Interval, Norm},
@@ -99,9 +99,13 @@ impl<N: Norm, O: Observer> AnyaSearch<'_, N, O> {
         let mut cone = Cone::new(self.rows, root, node, &self.goal);
         loop {
             self.next.clear();
-            if cone.advance(&self.goal) {
-                self.push(cone.node());
-                break;
+            match cone.advance(&self.goal) {
+                Ahead::Corner => {}
+                Ahead::Nothing => break,
+                Ahead::Goal => {
+                    self.push(cone.node());
+                    break;
+                }
             }
             self.cross_row(&cone);
             if self.next.len() > 1 {
