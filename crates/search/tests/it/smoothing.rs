@@ -487,7 +487,8 @@ fn guarantees_bound_the_any_angle_optimum() {
         }
     }
     let [never, one, always, open, closed] = closer;
-    assert!(always == 0 && [never, one, open, closed].iter().all(|&count| count > 10), "{closer:?}");
+    // At centers no bound holds against paths that bend at corners: there is the straight line alone.
+    assert!(never + one + always == 0 && open.min(closed) > 10, "{closer:?}");
     // An engine without a guarantee has no bound.
     for rules in Rules::ALL {
         let (best, none) = (Guarantee::OptimalAnyAngle, Guarantee::Suboptimal);
