@@ -40,8 +40,8 @@ use crate::{
 ///
 /// **Points.** At any angle a source may be any [point](Point) of the free space, as a start or goal of a
 /// [`Query`](crate::Query) may, and so may a place that is asked about. It is rounded to a multiple of 1/1024
-/// of a cell. A field has the distances of vertices, row by row; that of a point between them is found when it
-/// is asked for, from all that the point sees.
+/// of a cell. A field holds the distances of vertices, row by row; that of a point between them is found when
+/// it is asked for, from all that the point sees.
 ///
 /// ```
 /// use mediant::{DiagonalGap, K, Map, Motion};
@@ -384,35 +384,6 @@ impl Field {
         }
     }
 
-    /// For each vertex, row by row, the sum of its distances in two fields: the length, or the cost, of the
-    /// best path from a source of one to a source of the other that leads over it. The vertices with little
-    /// more than the least are a *corridor*. Infinite where a vertex is not in both fields.
-    ///
-    /// ```
-    /// use mediant::{Map, Motion};
-    ///
-    /// let space = Map::new(5, 3)?.costs([1, 1, 1, 1, 1, 4, 4, 4, 4, 4, 9, 9, 9, 9,
-    /// 9])?.space(Motion::centers(2))?; let corridor = space.field([(0, 0)])?.corridor(&space.field([(4,
-    /// 0)])?)?; assert_eq!([corridor[2], corridor[7]], [4.0, 4.0 + 2.0 * 2.5]);
-    /// # Ok::<(), mediant::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Mismatch`] for fields of different spaces; [`Error::Walking`] for two fields over elevation
-    /// of which none is [from its sources](Space::field_from), or none to them.
-    pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, Error> {
-        self.identity().check("the field", ("the other field", other.identity()))?;
-        #[cfg(feature = "costs")]
-        if let (Inner::Costs(field), Inner::Costs(other)) = (&self.inner, &other.inner) {
-            return field.corridor(other).map_err(costs::told);
-        }
-        #[cfg(feature = "walking")]
-        if let (Inner::Walking(field), Inner::Walking(other)) = (&self.inner, &other.inner) {
-            return Ok(field.corridor(other)?);
-        }
-        Ok(self.lengths().into_iter().zip(other.lengths()).map(|(one, other)| one + other).collect())
-    }
-
     /// The vertex to which the shortest path to the nearest source leads next: one move away; at any angle
     /// the next corner of an obstacle on it, or the source. There it mostly bends, but it may go straight on,
     /// where its line only touches the corner ([`path_from`](Self::path_from) has waypoints at bends alone).
@@ -438,8 +409,10 @@ impl Field {
     pub fn direction(&self, at: impl Into<Point>) -> Option<(f64, f64)> {
         let at = at.into();
         let next = self.next(at)?;
-        let length = at.distance(next);
-        Some(((next.x() - at.x()) / length, (next.y() - at.y()) / length))
+        let ((x, y), (to_x, to_y)) = (at.parts(), next.parts());
+        let (dx, dy) = ((to_x - x) as f64, (to_y - y) as f64);
+        let length = (dx * dx + dy * dy).sqrt();
+        Some((dx / length, dy / length))
     }
 
     /// The shortest path from a vertex to the nearest source; `None` where there is no distance. A field over

@@ -8,7 +8,10 @@ use mediant_costs::DirectionCode;
 use mediant_grid::Vector;
 use mediant_grid::{Point, Vertex};
 
+#[cfg(feature = "costs")]
+use super::costs;
 use super::{Field, Inner};
+use crate::error::Error;
 
 /// A vector in the direction of a point between vertices, in halves of its parts: longer than each move.
 #[cfg(feature = "costs")]
@@ -46,6 +49,35 @@ impl Field {
             Inner::Costs(field) => field.into_rows(),
             inner => Self { inner }.lengths(),
         }
+    }
+
+    /// For each vertex, row by row, the sum of its distances in two fields: the length, or the cost, of the
+    /// best path from a source of one to a source of the other that leads over it. The vertices with little
+    /// more than the least are a *corridor*. Infinite where a vertex is not in both fields.
+    ///
+    /// ```
+    /// use mediant::{Map, Motion};
+    ///
+    /// let space = Map::new(5, 3)?.costs([1, 1, 1, 1, 1, 4, 4, 4, 4, 4, 9, 9, 9, 9,
+    /// 9])?.space(Motion::centers(2))?; let corridor = space.field([(0, 0)])?.corridor(&space.field([(4,
+    /// 0)])?)?; assert_eq!([corridor[2], corridor[7]], [4.0, 4.0 + 2.0 * 2.5]);
+    /// # Ok::<(), mediant::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Mismatch`] for fields of different spaces; [`Error::Walking`] for two fields over elevation
+    /// of which none is [from its sources](Space::field_from), or none to them.
+    pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, Error> {
+        self.identity().check("the field", ("the other field", other.identity()))?;
+        #[cfg(feature = "costs")]
+        if let (Inner::Costs(field), Inner::Costs(other)) = (&self.inner, &other.inner) {
+            return field.corridor(other).map_err(costs::told);
+        }
+        #[cfg(feature = "walking")]
+        if let (Inner::Walking(field), Inner::Walking(other)) = (&self.inner, &other.inner) {
+            return Ok(field.corridor(other)?);
+        }
+        Ok(self.lengths().into_iter().zip(other.lengths()).map(|(one, other)| one + other).collect())
     }
 
     /// The *allocation* of all vertices, row by row: [`width`](Self::width) × [`height`](Self::height)

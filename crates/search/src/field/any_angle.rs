@@ -168,7 +168,7 @@ fn settle(
             return Ok(());
         }
         let Some((at, parent)) = labels.place(number).zip(labels.parent(number, g)) else { continue };
-        let root = Root { at, number, g };
+        let root = &Root { at, number, g };
         if parent == number {
             from_source(&mut labels, root)?;
         } else if let Some(parent) = labels.place(parent) {
@@ -180,7 +180,7 @@ fn settle(
 }
 
 /// Labels all that a source sees. From a closed gap a path leaves by the quadrant of the vertex's own cell.
-fn from_source(labels: &mut Labels<'_>, root: Root) -> Result<(), Interrupted> {
+fn from_source(labels: &mut Labels<'_>, root: &Root) -> Result<(), Interrupted> {
     if let Some(at) = root.at.vertex().filter(|&at| labels.space.is_closed_gap(at)) {
         if labels.space.grid().is_free(at.x, at.y) {
             labels.in_cone(root, 1, Some(Ray::VERTICAL), None)?;
@@ -199,7 +199,7 @@ fn from_source(labels: &mut Labels<'_>, root: Root) -> Result<(), Interrupted> {
 
 /// Labels what taut paths reach that bend at a corner: what lies between straight on and the edge of the
 /// obstacle.
-fn from_bend(labels: &mut Labels<'_>, root: Root, from: Place) -> Result<(), Interrupted> {
+fn from_bend(labels: &mut Labels<'_>, root: &Root, from: Place) -> Result<(), Interrupted> {
     let space = labels.space;
     let u = from.to(root.at);
     let straight = (u.y != 0).then(|| Ray { dx: u.x, dy: u.y.abs() });

@@ -112,11 +112,13 @@ impl Labels<'_> {
     /// Labels a vertex that a root sees, if the path by the root is shorter. Returns whether a path may go on
     /// from there, or past it, and be a shortest one.
     #[inline]
-    fn label(&mut self, root: Root, at: Vertex, index: usize, length: f64) -> bool {
+    fn label(&mut self, root: &Root, at: Vertex, index: usize, away: f64) -> bool {
+        let aside = f64::from(Place::parts(at.x) - root.at.x);
+        // Squares of parts, and a product with a power of two, are exact: to the last bit this is in cells.
+        let length = root.g + (aside * aside + away).sqrt() * PART;
         let (Some(known), Some(toward)) = (self.lengths.get_mut(index), self.toward.get_mut(index)) else {
             return false;
         };
-        let goes_on = length <= *known + MARGIN && length <= self.limit + MARGIN;
         if length < *known && length <= self.limit {
             if self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
                 if self.space.may_turn_at(Some(root.at.into()), at.into(), None) {
@@ -132,15 +134,15 @@ impl Labels<'_> {
                     self.bends.push((length, VertexId(index as u32)));
                 }
             }
-        } else if !goes_on && self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
-            // The known path may end here, but not go on.
-            return length <= self.limit + MARGIN;
+            return true;
         }
-        goes_on
+        // The known path may end at a closed gap, but not go on.
+        length <= self.limit + MARGIN
+            && (length <= *known + MARGIN || self.space.has_closed_gaps() && self.space.is_closed_gap(at))
     }
 
     /// Labels the vertices on the horizontal line of a root, if it is on one, to one side.
-    pub(super) fn along_line(&mut self, root: Root, right: i32) {
+    pub(super) fn along_line(&mut self, root: &Root, right: i32) {
         let ((left, after), (y, below)) = (root.at.columns(), root.at.lines());
         let mut x = if right > 0 { left } else { after };
         let Some(id) = self.space.id(Vertex::new(x, y)).filter(|_| y == below) else { return };
@@ -155,15 +157,14 @@ impl Labels<'_> {
             x += right;
             index = index.wrapping_add_signed(right);
             let at = Vertex::new(x, y);
-            let length = root.g + f64::from(Place::parts(x).abs_diff(root.at.x)) * PART;
-            if !self.label(root, at, index as usize, length) || self.space.is_closed_gap(at) {
+            if !self.label(root, at, index as usize, 0.0) || self.space.is_closed_gap(at) {
                 return;
             }
         }
     }
 
     /// Labels all that a root sees above or below it.
-    pub(super) fn in_half(&mut self, root: Root, down: i32) -> Result<(), Interrupted> {
+    pub(super) fn in_half(&mut self, root: &Root, down: i32) -> Result<(), Interrupted> {
         let line = root.at.line(down);
         let (start, end) = root.at.run(row_ahead(self.space.grid().rows(), line, down));
         if start >= end {
@@ -178,7 +179,7 @@ impl Labels<'_> {
     /// it looks; `None` for the horizontal.
     pub(super) fn in_cone(
         &mut self,
-        root: Root,
+        root: &Root,
         down: i32,
         left: Option<Ray>,
         right: Option<Ray>,
@@ -206,7 +207,7 @@ impl Labels<'_> {
     }
 
     /// Labels an interval, and what is seen through it.
-    fn follow(&mut self, root: Root, down: i32, piece: Piece) -> Result<(), Interrupted> {
+    fn follow(&mut self, root: &Root, down: i32, piece: Piece) -> Result<(), Interrupted> {
         self.pending.clear();
         self.pending.push(piece);
         while let Some(piece) = self.pending.pop() {
@@ -224,7 +225,7 @@ impl Labels<'_> {
     /// Labels the vertices of an interval. Returns the part of it behind which there may be vertices whose
     /// shortest path leads through it.
     #[inline]
-    fn label_line(&mut self, root: Root, down: i32, piece: Piece) -> Option<Piece> {
+    fn label_line(&mut self, root: &Root, down: i32, piece: Piece) -> Option<Piece> {
         let (first, last) = (piece.left.here.ceil(), piece.right.here.floor());
         self.unasked += (last - first).max(0) as usize + 1;
         if first > last {
@@ -233,16 +234,16 @@ impl Labels<'_> {
         let n = root.away(piece.line, down);
         let away = f64::from(n) * f64::from(n);
         let row = self.space.id(Vertex::new(0, piece.line))?.index();
-        let mut alive: Option<(i32, i32)> = None;
-        for x in first..=last {
-            let aside = f64::from(Place::parts(x) - root.at.x);
-            // The root of a sum of squares in parts: with exact factors, to the last bit that in cells.
-            let length = root.g + (aside * aside + away).sqrt() * PART;
-            if self.label(root, Vertex::new(x, piece.line), row + x as usize, length) {
-                alive = Some((alive.map_or(x, |(low, _)| low), x));
+        let (mut x, mut low, mut high) = (first, i32::MAX, i32::MIN);
+        while x <= last {
+            if self.label(root, Vertex::new(x, piece.line), row + x as usize, away) {
+                (low, high) = (low.min(x), x);
             }
+            x += 1;
         }
-        let (low, high) = alive?;
+        if low > high {
+            return None;
+        }
         let corner = |x| IntervalEnd::corner(x, root.at.x, n);
         let left = if low > first { corner(low - 1) } else { piece.left };
         let right = if high < last { corner(high + 1) } else { piece.right };
@@ -251,7 +252,7 @@ impl Labels<'_> {
 
     /// Finds the parts of the next line that are seen through the runs of free cells ahead.
     #[inline]
-    fn cross_row(&mut self, root: Root, down: i32, Piece { line, left, right }: Piece) {
+    fn cross_row(&mut self, root: &Root, down: i32, Piece { line, left, right }: Piece) {
         let n = root.away(line, down);
         let ahead = row_ahead(self.space.grid().rows(), line, down);
         let corner = |x: i32, n: i32| IntervalEnd::corner(x, root.at.x, n);

@@ -132,10 +132,11 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     /// Whether a path in the field, before a change of some cells or after it, may touch these cells.
     ///
     /// Take such a path, up to where it first touches one, and on it the point that is 1.5 cells before. (If
-    /// it is shorter, its source is near, and in the field or between vertices.) That point touches a free cell. The corners of
-    /// this cell are at most √2 further than the point, so within the limit, and at most three from the
-    /// changed cell. The path is legal on both maps; so those of the corners at which a path may end are in
-    /// the field. There is one, unless all four are closed gaps: then the path began at one of them.
+    /// it is shorter, its source is near, and in the field or between vertices.) That point touches a free
+    /// cell. The corners of this cell are at most √2 further than the point, so within the limit, and at most
+    /// three from the changed cell. The path is legal on both maps; so those of the corners at which a path
+    /// may end are in the field. There is one, unless all four are closed gaps: then the path began at one of
+    /// them, or in the cell.
     fn comes_near(&self, cells: Rectangle) -> bool {
         const NEAR: u32 = 3;
         let span = |first: u32, count: u32, all: u32| {
@@ -211,8 +212,10 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
     pub fn direction(&self, at: impl Into<Point>) -> Option<(f64, f64)> {
         let at = at.into();
         let next = self.next(at)?;
-        let length = at.distance(next);
-        Some(((next.x() - at.x()) / length, (next.y() - at.y()) / length))
+        let ((x, y), (to_x, to_y)) = (at.parts(), next.parts());
+        let (dx, dy) = ((to_x - x) as f64, (to_y - y) as f64);
+        let length = (dx * dx + dy * dy).sqrt();
+        Some((dx / length, dy / length))
     }
 
     /// A shortest path from a vertex, or a point between vertices, to its nearest source, with waypoints
@@ -222,7 +225,7 @@ impl<S: Deref<Target = FreeSpace<Corners>>> AnyAngleField<S> {
         Some(Path::straightened(self.ahead(at.into())?))
     }
 
-    /// The nearest source of a vertex, or a point between vertices: where [`path_from`](Self::path_from) ends.
+    /// The nearest source of a vertex, or a point between them: where [`path_from`](Self::path_from) ends.
     #[must_use]
     pub fn nearest_source(&self, at: impl Into<Point>) -> Option<Point> {
         self.ahead(at.into())?.last()
