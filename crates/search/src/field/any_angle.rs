@@ -40,7 +40,7 @@ use crate::limit::with_room;
 /// let field = AnyAngleFields::new(&space).field(FieldQuery::new(&[Vertex::new(0, 0)]))?;
 /// // Around the corner (3, 1) of the obstacle.
 /// let at = Vertex::new(4, 2);
-/// assert_eq!(field.next(at), Some(Vertex::new(3, 1)));
+/// assert_eq!(field.next(at), Some((3, 1).into()));
 /// assert_eq!(field.get(at), Some(10_f64.sqrt() + 2_f64.sqrt()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
