@@ -8,6 +8,8 @@
 //! quotient whose numerator is a sum of two products of two coordinates, below 2⁵², and whose denominator is
 //! a coordinate times 2¹⁰, at most 2³⁵. So floors, ceilings and 'is it a vertex?' are exact in 64 bits.
 
+use mediant_moves::Vector;
+
 use crate::{
     BitMatrix, Corners, DiagonalGap, FreeSpace, Grid, Obstruction, Placement, Point, Vertex, sight::Place,
 };
@@ -158,6 +160,46 @@ struct Strips<'g> {
     to: Place,
 }
 
+/// Where a segment crosses one line after another: only the first of them takes divisions.
+#[derive(Default)]
+struct Crossings {
+    /// The column of vertices at or to the left of the crossing, and how far it is from there.
+    column: i32,
+    rest: i64,
+    /// What a cell measures in the units of that: the segment's height in parts, in parts. 0 before the first
+    /// line.
+    cell: i64,
+    /// From line to line.
+    step: (i32, i64),
+}
+
+impl Crossings {
+    /// Goes to the next line, or to the first one.
+    #[inline]
+    fn go_to(&mut self, line: i32, &Strips { from, .. }: &Strips<'_>, d: Vector) {
+        if self.cell == 0 {
+            let height = i64::from(d.y.abs());
+            let cell = height << Place::PLACES;
+            let aside = i64::from((Place::parts(line) - from.y).abs());
+            let first = i64::from(from.x) * height + aside * i64::from(d.x);
+            let parts = |n: i64| (n.div_euclid(cell) as i32, n.rem_euclid(cell));
+            let ((column, rest), step) = (parts(first), parts(i64::from(d.x) << Place::PLACES));
+            *self = Self { column, rest, cell, step };
+            return;
+        }
+        (self.column, self.rest) = (self.column + self.step.0, self.rest + self.step.1);
+        let carry = self.rest >= self.cell;
+        self.column += i32::from(carry);
+        self.rest -= if carry { self.cell } else { 0 };
+    }
+
+    /// The columns of vertices around the crossing.
+    #[inline]
+    const fn columns(&self) -> (i32, i32) {
+        (self.column, self.column + (self.rest != 0) as i32)
+    }
+}
+
 /// Cells in the way, as (column, row) of the matrix.
 enum Found {
     Cell((i32, i32)),
@@ -171,21 +213,17 @@ impl Strips<'_> {
             return if self.from.lines().0 == self.from.lines().1 { self.on_line() } else { self.in_row() };
         }
         let down = d.y.signum();
-        let length = i64::from(d.y.abs());
-        // A place on the segment, in parts times the length, at this height.
-        let along = |y: i32| {
-            let (x, aside) = (i64::from(self.from.x), i64::from((y - self.from.y) * down));
-            x * length + aside * i64::from(d.x)
-        };
-        let cell = length << Place::PLACES;
         let last = self.to.line(-down);
-        let (mut line, mut here) = (self.from.line(down), i64::from(self.from.x) * length);
+        let (mut line, mut here) = (self.from.line(down), self.from.columns());
+        let mut crossings = Crossings::default();
         loop {
             let is_last = line + down == last;
-            let next = if is_last { i64::from(self.to.x) * length } else { along(Place::parts(line + down)) };
+            if !is_last {
+                crossings.go_to(line + down, self, d);
+            }
+            let next = if is_last { self.to.columns() } else { crossings.columns() };
             let row = line + (down - 1) / 2;
-            let (low, high) = (here.min(next), here.max(next));
-            let (first, end) = (low.div_euclid(cell) as i32, -((-high).div_euclid(cell)) as i32);
+            let (first, end) = (here.0.min(next.0), here.1.max(next.1));
             if self.matrix.any(row, first, end - 1) {
                 return self.first_cell(row, (first, end));
             }
@@ -193,8 +231,8 @@ impl Strips<'_> {
                 return None;
             }
             line += down;
-            if self.gaps && next.rem_euclid(cell) == 0 {
-                let gap = self.gap((next / cell) as i32, line);
+            if self.gaps && next.0 == next.1 {
+                let gap = self.gap(next.0, line);
                 if gap.is_some() {
                     return gap;
                 }

@@ -11,7 +11,7 @@ use crate::{
     clearance::{ClearanceBits, DiagonalClearance, convex_corners, zeros_after, zeros_before},
     error::SubgoalError,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement, VertexRun},
+    placement::{BuildContext, CellRun, EdgeCriterion, EdgeFinder, EdgeKind, SubgoalPlacement, VertexRun},
 };
 
 impl SubgoalPlacement for Centers {}
@@ -115,6 +115,7 @@ impl EdgeFinder for Centers {
         (): &mut (),
         subgoal: Vertex,
         mut run: impl FnMut(VertexRun),
+        _: impl FnMut(CellRun),
     ) {
         let BuildContext { space, tables, k, .. } = context;
         let (from, kind, costs) = (subgoal, EdgeKind::Query, (Cost::ZERO, Cost::ZERO));

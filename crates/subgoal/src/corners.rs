@@ -13,7 +13,9 @@ use crate::{
     direct_reachability::DirectFilter,
     error::SubgoalError,
     hierarchy::Hierarchy,
-    placement::{BuildContext, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement, VertexRun},
+    placement::{
+        BuildContext, CellRun, EdgeCriterion, EdgeFinder, EdgeKind, EdgeTables, SubgoalPlacement, VertexRun,
+    },
 };
 
 /// Scratch memory for finding edges at corners.
@@ -195,6 +197,7 @@ impl EdgeFinder for Corners {
         scratch: &mut CornerScratch,
         subgoal: Vertex,
         mut visit: impl FnMut(VertexRun),
+        mut cells: impl FnMut(CellRun),
     ) {
         let BuildContext { space, tables: SightTables { row_summary, tangents }, .. } = context;
         let [same, opposite] = tangents;
@@ -204,10 +207,12 @@ impl EdgeFinder for Corners {
         for (is_right, sign) in [(false, -1), (true, 1)] {
             let quadrant = Quadrants::only(sign, sign * tangent);
             let targets = Targets { same, opposite };
-            scratch.sweep.runs(space, row_summary, targets, subgoal, quadrant, |line, first, last| {
+            let run = |line, first, last| {
                 let length = last - first + 1;
                 visit(VertexRun { first: Vertex::new(first, line), length, is_column: false, is_right });
-            });
+            };
+            let cells = |row, first, end| cells(CellRun { row, first, end, is_right });
+            scratch.sweep.runs_and_cells(space, row_summary, targets, subgoal, quadrant, run, cells);
         }
     }
 }

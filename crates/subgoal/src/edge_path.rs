@@ -1,10 +1,10 @@
 //! How an edge becomes moves of N(k): those of [`follow_line`], or, where every optimal path of the empty
 //! grid is free, the first that comes to hand.
 
-use mediant_grid::{Corners, FreeSpace, Placement, PlacementKind, Vector, Vertex};
+use mediant_grid::{Corners, FreeSpace, Placement, PlacementKind, Vector, Vertex, sight::Place};
 use mediant_moves::{FiniteK, K, decompose};
 use mediant_search::{
-    Path, PointEnds,
+    PointEnds,
     parts::{along_line, elbows, follow_line, leg_is_free, legs_are_free, push_waypoint},
 };
 
@@ -54,16 +54,16 @@ pub(crate) fn direct_path<P: Placement>(
     is_straight()
 }
 
-/// The straight path at any angle between two points, if it is free.
-pub(crate) fn direct_between(
+/// Whether the straight path at any angle between two free points is free; `places` are theirs.
+pub(crate) fn sees_between(
     space: &FreeSpace<Corners>,
     PointEnds { start, goal, .. }: PointEnds,
-) -> Option<Path> {
-    let is_free = start == goal
-        || space.point_sees(start, goal)
+    [from, to]: [Place; 2],
+) -> bool {
+    start == goal
+        || space.first_between(from, to).is_none()
             && space.may_turn_at(None, start, Some(goal))
-            && space.may_turn_at(Some(start), goal, None);
-    is_free.then(|| Path::straightened([start, goal]))
+            && space.may_turn_at(Some(start), goal, None)
 }
 
 /// Whether the paths of an edge over either elbow are free.

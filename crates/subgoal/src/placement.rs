@@ -83,11 +83,16 @@ pub trait EdgeFinder: Placement {
 
     /// Calls `visit` with the vertices of which the edges of a query lead to a subgoal. Runs may share
     /// vertices; those from which another edge leads to the same side of the subgoal may be missing.
+    ///
+    /// Where points in the middle of cells can be the ends of queries, it calls `cells` with runs of cells:
+    /// all are among them from whose inside an edge leads to the subgoal, but from none of whose vertices on
+    /// the same side.
     fn runs_to(
         context: BuildContext<'_, Self>,
         scratch: &mut Self::Scratch,
         subgoal: Vertex,
         visit: impl FnMut(VertexRun),
+        cells: impl FnMut(CellRun),
     );
 }
 
@@ -102,6 +107,19 @@ pub struct VertexRun {
     pub(crate) is_column: bool,
     /// At corners, whether it lies to the right of the subgoal, or on its vertical on the side of the
     /// quadrant that taut paths pass to the right.
+    pub(crate) is_right: bool,
+}
+
+/// A run of cells along a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellRun {
+    /// The row.
+    pub(crate) row: i32,
+    /// The first column.
+    pub(crate) first: i32,
+    /// The column after the last.
+    pub(crate) end: i32,
+    /// Whether it lies to the right of the subgoal.
     pub(crate) is_right: bool,
 }
 

@@ -13,7 +13,7 @@ use crate::{
     arc::{NONE, PackedArc, ParentEdge, Step},
     bends::BendRule,
     corners::PointSight,
-    edge_path::{direct_between, direct_path, extend},
+    edge_path::{direct_path, extend, sees_between},
     graph::SubgoalGraph,
     placement::{EdgeCriterion, SubgoalPlacement},
 };
@@ -205,7 +205,7 @@ where
         }
         let query = places.map(QueryEnd::new);
         self.query = Some(query);
-        self.is_direct = direct_between(space, ends).is_some();
+        self.is_direct = sees_between(space, ends, places);
         if self.is_direct {
             self.status = SearchStatus::Found;
             return Some(Ok(self.status));

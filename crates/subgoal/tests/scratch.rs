@@ -165,7 +165,7 @@ fn huge_counts_of_labels_allocate_nothing_huge() {
         [1 << 20, 1 << 30, 1 << 32, 1 << 61, 1 << 62, u64::MAX / 4, u64::MAX / 8, u64::MAX - 1, u64::MAX]
     {
         let mut at = Identity::BYTES + 8;
-        for width in [4, 4, 8, 4, 4, 4, 8] {
+        for width in [4, 4, 8, 4, 8, 4, 4, 4, 8] {
             let mut huge = bytes[..bytes.len() - 8].to_vec();
             let known = u64::from_le_bytes(huge[at..at + 8].try_into().expect("eight bytes"));
             huge[at..at + 8].copy_from_slice(&count.to_le_bytes());

@@ -2,7 +2,7 @@
 
 use mediant_moves::Vector;
 
-use super::runs::{Runs, row_ahead};
+use super::runs::Runs;
 use crate::{BitMatrix, Point, Vertex};
 
 /// A point of a map, vertex or not, in parts of a cell, 1/1024 each: at most 2²⁵ of them along each axis.
@@ -94,10 +94,10 @@ impl Place {
     /// the map is not free.
     #[must_use]
     pub fn is_free(self, rows: &BitMatrix) -> bool {
-        [1, -1].into_iter().any(|down| {
-            let (start, end) = self.run(row_ahead(rows, self.line(down), down));
-            start < end
-        })
+        let ((left, right), (above, below)) = (self.columns(), self.lines());
+        // Of equal ones the cells on both sides, else the cell between.
+        let first = |(low, high): (i32, i32)| if low == high { low - 1 } else { low };
+        (first((above, below))..=above).any(|y| (first((left, right))..=left).any(|x| !rows.get(x, y)))
     }
 }
 

@@ -109,12 +109,30 @@ impl VisibilitySweep {
         marks: impl Into<Targets<'m>>,
         from: Vertex,
         quadrants: Quadrants,
+        run: impl FnMut(i32, i32, i32),
+    ) {
+        self.runs_and_cells(space, summary, marks, from, quadrants, run, |_, _, _| {});
+    }
+
+    /// [`runs`](Self::runs), and calls `cells` with runs of cells: the row, the first column, and the one
+    /// after the last. All cells are among them of whose inside a part is seen, but none of whose four
+    /// vertices is in a run. Others may be, and some more than once.
+    #[expect(clippy::too_many_arguments, reason = "those of `runs`, and one more")]
+    pub fn runs_and_cells<'m>(
+        &mut self,
+        space: &'m FreeSpace<Corners>,
+        summary: &'m RowSummary,
+        marks: impl Into<Targets<'m>>,
+        from: Vertex,
+        quadrants: Quadrants,
         mut run: impl FnMut(i32, i32, i32),
+        mut cells: impl FnMut(i32, i32, i32),
     ) {
         if !space.is_free(from) {
             return;
         }
-        self.sweep(space, summary, Place::of(from), quadrants, &mut RunsOf { run: &mut run });
+        let visitor = &mut RunsOf { run: &mut run, cells: &mut cells, interval: None };
+        self.sweep(space, summary, Place::of(from), quadrants, visitor);
         let marks = marks.into();
         for right in [1, -1] {
             if quadrants.contains_horizontal(right) {

@@ -1,4 +1,4 @@
-//! Visitors of the intervals of a visibility sweep: one finds targets, one all vertices.
+//! Visitors of the intervals of a visibility sweep: one finds targets, one all vertices and cells.
 
 use crate::{BitRow, Vertex};
 
@@ -93,12 +93,46 @@ impl<F> TargetsOf<'_, '_, F> {
     }
 }
 
-/// Looks for all vertices.
-pub(super) struct RunsOf<'f, F> {
+/// Looks for all vertices, and for cells that are seen between them.
+pub(super) struct RunsOf<'f, F, C> {
     pub(super) run: &'f mut F,
+    pub(super) cells: &'f mut C,
+    /// The interval that was told last, and whether it goes down (1) or up (−1).
+    pub(super) interval: Option<(Piece, i32)>,
 }
 
-impl<F: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F> {
+impl<F: FnMut(i32, i32, i32), C: FnMut(i32, i32, i32)> RunsOf<'_, F, C> {
+    fn vertices(&mut self, piece: Piece) {
+        let (first, last) = piece.columns();
+        if first <= last {
+            (self.run)(piece.line, first, last);
+        }
+    }
+
+    /// The cells between an interval and the next line, of the columns from `start` to `end`, but for those
+    /// that touch a vertex of the interval.
+    #[inline]
+    fn cells_beyond(&mut self, piece: Piece, down: i32, start: i32, end: i32) {
+        let ([left, right], (first, last)) = ([piece.left, piece.right], piece.columns());
+        let low = left.end.here.floor().min(left.after(1).end.here.floor()).max(start);
+        let high = right.end.here.ceil().max(right.after(1).end.here.ceil()).min(end);
+        let row = piece.line + (down - 1) / 2;
+        if first > last {
+            if low < high {
+                (self.cells)(row, low, high);
+            }
+            return;
+        }
+        if low < first - 1 {
+            (self.cells)(row, low, high.min(first - 1));
+        }
+        if last + 1 < high {
+            (self.cells)(row, low.max(last + 1), high);
+        }
+    }
+}
+
+impl<F: FnMut(i32, i32, i32), C: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F, C> {
     type Line = ();
 
     fn line(&self, _: i32) {}
@@ -106,11 +140,9 @@ impl<F: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F> {
     fn below((): (), _: i32) {}
 
     #[inline]
-    fn between_free_cells(&mut self, piece: Piece, _: i32, (): ()) {
-        let (first, last) = piece.columns();
-        if first <= last {
-            (self.run)(piece.line, first, last);
-        }
+    fn between_free_cells(&mut self, piece: Piece, down: i32, (): ()) {
+        self.vertices(piece);
+        self.interval = Some((piece, down));
     }
 
     #[inline]
@@ -121,7 +153,16 @@ impl<F: FnMut(i32, i32, i32)> Visitor<'_> for RunsOf<'_, F> {
     fn band(&mut self, piece: Piece, down: i32, (): ()) {
         for lines in 0..RowSummary::LINES {
             let [left, right] = [piece.left, piece.right].map(|edge| edge.after(lines));
-            self.between_free_cells(Piece { line: piece.line + down * lines, left, right }, down, ());
+            let piece = Piece { line: piece.line + down * lines, left, right };
+            self.vertices(piece);
+            self.cells_beyond(piece, down, i32::MIN, i32::MAX);
+        }
+    }
+
+    #[inline]
+    fn looks_at(&mut self, _: i32, first: i32, end: i32) {
+        if let Some((piece, down)) = self.interval {
+            self.cells_beyond(piece, down, first, end);
         }
     }
 }

@@ -145,12 +145,12 @@ fn where_nothing_is_kept_another_engine_searches() {
 fn old_versions_are_refused_by_name() {
     let setup = setup("subgoal");
     let space = setup.space(&map()).expect("a space");
-    let key = IndexKey::new("subgoal", 2, space.identity()).expect("a key");
+    let key = IndexKey::new("subgoal", 3, space.identity()).expect("a key");
     let error = space.index_from_bytes(IndexFile::new(key, Vec::new()).to_bytes()).expect_err("an old one");
     assert_eq!(error.code(), ErrorCode::IndexEngine);
     assert_eq!(
         error.to_string(),
-        "expected version 3 of the subgoal index, found version 2; prepare it again"
+        "expected version 4 of the subgoal index, found version 3; prepare it again"
     );
 }
 

@@ -79,16 +79,14 @@ impl SideDepartures {
     /// Whether an arrival is in a [half plane](Self::half_plane).
     #[inline]
     pub(crate) const fn is_in(arrival: Vector, half_plane: u32) -> bool {
-        let (x, y) = ((half_plane as i32) >> 16, half_plane as i16 as i32);
-        (half_plane != Self::NO_ARRIVALS) & (arrival.x * y - arrival.y * x >= 0)
+        let w = Vector::new((half_plane as i32) >> 16, half_plane as i16 as i32);
+        (half_plane != Self::NO_ARRIVALS) & (det(arrival, w) >= 0)
     }
 
-    /// Whether the path may leave by `w`, on that side. `w` has less than 2¹⁵ cells along each axis, and the
-    /// arrival not more, so 32 bits hold the determinant.
+    /// Whether the path may leave by `w`, on that side.
     #[inline]
     pub(crate) const fn allows(self, w: Vector) -> bool {
-        let det = self.arrival.x * w.y - self.arrival.y * w.x;
-        self.is_gap | (self.sign * det >= 0)
+        self.is_gap | (self.sign as i64 * det(self.arrival, w) >= 0)
     }
 }
 
@@ -118,6 +116,6 @@ impl TautDepartures {
 }
 
 #[inline]
-fn det(v: Vector, w: Vector) -> i64 {
-    i64::from(v.x) * i64::from(w.y) - i64::from(v.y) * i64::from(w.x)
+const fn det(v: Vector, w: Vector) -> i64 {
+    v.x as i64 * w.y as i64 - v.y as i64 * w.x as i64
 }

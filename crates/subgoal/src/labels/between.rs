@@ -1,42 +1,85 @@
 //! Paths at any angle between points that need not be vertices.
 //!
-//! The seen index knows vertices alone. A point looks around by a visibility sweep instead, and the subgoals
-//! that it sees are joined by the same labels. The sweep's tables are made at the first such query: a bit a
-//! vertex and twice, and two bits for each 8 × 8 cells. They are scratch memory of the planner.
+//! What such a point may see is looked up, as of a vertex: it is what the vertices around see, and a few
+//! subgoals more ([`SeenIndex`](crate::seen)). Some of them it does not see. But a shortest path leads over
+//! few of them, so a line of sight is tested for the two alone over which the path leads that was found. If
+//! it is not free, the subgoal is left out, and another path is found.
+//!
+//! On maps of noise the index does not know what may be seen. There a point looks around by a visibility
+//! sweep. The sweep's tables are made at the first such query: a bit a vertex and twice, and two bits for
+//! each 8 × 8 cells. They are scratch memory of the planner.
 
-use mediant_grid::{Corners, FreeSpace, sight::Place};
-use mediant_search::Path;
+use mediant_grid::{Corners, FreeSpace, Vertex, sight::Place};
+use mediant_search::{Path, parts::push_waypoint};
 
-use super::{HubLabels, chain::Chains, join::Join};
+use super::{
+    HubLabels,
+    chain::Chains,
+    join::{Join, Meeting},
+};
 use crate::{corners::PointSight, placement::SubgoalPlacement};
 
 impl<P: SubgoalPlacement> HubLabels<P> {
-    /// A shortest path between two different places that do not see each other; `None` if the labels are
-    /// damaged.
-    pub(super) fn path_between(
+    /// Where a shortest path between two different places that do not see each other turns; `None` if the
+    /// labels are damaged.
+    pub(super) fn meeting_between(
         &self,
         space: &FreeSpace<Corners>,
-        (sight, join): (&mut PointSight, &mut Join),
+        (sight, join): (&mut Option<PointSight>, &mut Join),
         places: [Place; 2],
-    ) -> Option<Path> {
+    ) -> Option<Meeting> {
         let subgoals = &self.geometry.subgoals;
-        let meeting = join.meeting_of_places(self, places, |from, see| {
+        join.meeting_of_places(self, space, places, |from, see| {
+            let sight = sight.get_or_insert_with(|| PointSight::new(space, subgoals.marks()));
             sight.seen_from(space, from, |at| {
                 if let Some(id) = subgoals.id(at) {
                     see(id);
                 }
             });
-        })?;
-        let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
-        let vertex = |id: u32| subgoals.vertex(id);
-        // From the subgoal itself: it does not matter from where the path comes there.
-        let way = |id: u32| {
-            let mut way = vec![vertex(id)];
-            chains.visit(vertex(id), id, meeting.hub, |at| way.push(at)).map(|()| way)
-        };
-        let (there, back) = (way(meeting.first)?, way(meeting.last)?);
-        let bends = there.into_iter().chain(back.into_iter().rev().skip(1)).map(Place::of);
-        let [start, goal] = places;
-        Some(Path::straightened([start].into_iter().chain(bends).chain([goal])))
+        })
     }
+
+    /// The path over a meeting point; `None` if the labels are damaged. The bends are written to `bends`;
+    /// `chain` is scratch memory.
+    pub(super) fn path_between(
+        &self,
+        [start, goal]: [Place; 2],
+        Meeting { hub, first, last, .. }: Meeting,
+        [bends, chain]: [&mut Vec<Vertex>; 2],
+    ) -> Option<Path> {
+        let subgoals = &self.geometry.subgoals;
+        let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
+        let arrival = |from: Place, id: u32| from.to(Place::of(subgoals.vertex(id)));
+        bends.clear();
+        bends.push(subgoals.vertex(first));
+        chains.visit(arrival(start, first), first, hub, |at| push_waypoint(bends, at))?;
+        chain.clear();
+        chain.push(subgoals.vertex(last));
+        chains.visit(arrival(goal, last), last, hub, |at| chain.push(at))?;
+        // The last of the chain is the hub, at which the path is already.
+        chain.iter().rev().skip(1).for_each(|&at| push_waypoint(bends, at));
+        // Where the path goes straight on at its first or last subgoal, it does not turn there.
+        let mut bends = &bends[..];
+        if let [first, second, ..] = *bends
+            && goes_on(start, first, second)
+        {
+            bends = &bends[1..];
+        }
+        if let [.., second, first] = *bends
+            && goes_on(goal, first, second)
+        {
+            bends = &bends[..bends.len() - 1];
+        }
+        if let [only] = *bends {
+            return Some(Path::straightened([start, Place::of(only), goal]));
+        }
+        let between = bends.iter().map(|&at| Place::of(at));
+        Some(Path::through([start].into_iter().chain(between).chain([goal])))
+    }
+}
+
+/// Whether a path from a place over two vertices goes straight on at the first.
+fn goes_on(from: Place, first: Vertex, second: Vertex) -> bool {
+    let (v, w) = (from.to(Place::of(first)), first.to(second));
+    v.det(w) == 0 && v.dot(w) > 0
 }

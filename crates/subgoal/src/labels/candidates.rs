@@ -1,6 +1,6 @@
 //! The subgoals to which the ends of a query are joined.
 
-use mediant_grid::{FreeSpace, Vector, Vertex, sight::Place};
+use mediant_grid::{FreeSpace, Placement, Vector, Vertex};
 use mediant_moves::{FiniteK, K};
 
 use super::HubLabels;
@@ -9,23 +9,12 @@ use crate::placement::SubgoalPlacement;
 /// The displacement from an end to a subgoal.
 pub(super) type Step = (i32, i32);
 
-/// The line from a point to a subgoal.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
-    /// Its length in fixed point, rounded down.
-    cost: u64,
-    /// Its displacement in cells.
-    x: f32,
-    y: f32,
-}
-
-/// The joint of an end and a subgoal: a displacement or a line.
+/// The joint of an end and a subgoal: a displacement in cells, or in parts of a cell.
 pub(super) trait Joint: Copy {
-    /// The cost of the line.
+    /// The cost of the line between both.
     fn cost<P: SubgoalPlacement>(self, index: &HubLabels<P>) -> u64;
 
-    /// The direction in which a path arrives at the subgoal, by which it is known how it may lead on; zero
-    /// where it may lead on in any way. A path that is not taut is no shortest one, so it does no harm.
+    /// The direction in which a path arrives at the subgoal, by which it is known how it may lead on.
     fn arrival(self) -> Vector;
 }
 
@@ -41,17 +30,6 @@ impl Joint for Step {
     }
 }
 
-/// The direction would not fit 16 bits.
-impl Joint for Line {
-    fn cost<P: SubgoalPlacement>(self, _: &HubLabels<P>) -> u64 {
-        self.cost
-    }
-
-    fn arrival(self) -> Vector {
-        Vector::ZERO
-    }
-}
-
 /// The slots that an end of a query is joined to.
 #[derive(Debug)]
 pub(super) struct Candidates<J> {
@@ -63,54 +41,6 @@ pub(super) struct Candidates<J> {
     pub(super) count: usize,
     /// The numbers of those over which paths lead on.
     pub(super) leading: Vec<u32>,
-}
-
-/// A displacement in parts of a cell, in cells.
-pub(super) fn cells(v: Vector) -> (f32, f32) {
-    const PART: f64 = 1.0 / Place::parts(1) as f64;
-    let cells = |parts: i32| (f64::from(parts) * PART) as f32;
-    (cells(v.x), cells(v.y))
-}
-
-impl Candidates<Line> {
-    pub(super) fn none() -> Self {
-        let (slots, steps, bounds, leading) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { slots, steps, bounds, count: 0, leading }
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.slots.clear();
-        self.steps.clear();
-        self.count = 0;
-    }
-
-    /// Adds the sides of a subgoal that a place sees: the one from which it comes, or both where it lies on
-    /// the vertical through the subgoal.
-    pub(super) fn add<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, from: Place, id: u32) {
-        let to = from.to(Place::of(index.geometry.subgoals.vertex(id)));
-        let (x, y) = cells(to);
-        let cost = index.metric.estimate(to).to_bits() >> Place::PLACES;
-        let (first, last) = match to.x {
-            1.. => (0, 0),
-            0 => (0, P::SIDES - 1),
-            _ => (P::SIDES - 1, P::SIDES - 1),
-        };
-        for side in first..=last {
-            self.slots.push(id * P::SIDES + side);
-            self.steps.push(Line { cost, x, y });
-        }
-        self.count = self.slots.len();
-        self.bounds.resize(self.count, 0.0);
-        self.leading.resize(self.count, 0);
-    }
-
-    /// Finds bounds on the costs of paths to the other end, which is at `other` from here, in cells.
-    pub(super) fn find_bounds(&mut self, (x, y): (f32, f32)) {
-        let straight = |x: f32, y: f32| (x * x + y * y).sqrt() * BELOW;
-        for (bound, line) in self.bounds[..self.count].iter_mut().zip(&self.steps) {
-            *bound = straight(line.x, line.y) + straight(x - line.x, y - line.y);
-        }
-    }
 }
 
 impl Candidates<Step> {
@@ -147,18 +77,6 @@ impl Candidates<Step> {
         }
     }
 
-    /// A path leaves a closed gap through the quadrant of the vertex's own cell.
-    #[cold]
-    fn keep_legal<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, space: &FreeSpace<P>, end: Vertex) {
-        let mut kept = 0;
-        for i in 0..self.count {
-            let at = index.geometry.subgoals.vertex(self.slots[i] / P::SIDES);
-            self.slots[kept] = self.slots[i];
-            kept += usize::from(space.may_turn(None, end, Some(at)) && space.sees(end, at));
-        }
-        self.count = kept;
-    }
-
     /// Finds bounds on the costs of paths to the other end, which is at `other` from here.
     #[inline]
     pub(super) fn find_bounds(&mut self, k: K, other: Vector) {
@@ -177,6 +95,23 @@ impl Candidates<Step> {
 }
 
 impl<J: Joint> Candidates<J> {
+    /// A path leaves a closed gap through the quadrant of the vertex's own cell.
+    #[cold]
+    pub(super) fn keep_legal<P: SubgoalPlacement, Q: Placement>(
+        &mut self,
+        index: &HubLabels<P>,
+        space: &FreeSpace<Q>,
+        end: Vertex,
+    ) {
+        let mut kept = 0;
+        for i in 0..self.count {
+            let at = index.geometry.subgoals.vertex(self.slots[i] / P::SIDES);
+            self.slots[kept] = self.slots[i];
+            kept += usize::from(space.may_turn(None, end, Some(at)) && space.sees(end, at));
+        }
+        self.count = kept;
+    }
+
     /// Finds the candidates over which shortest paths can lead on to other subgoals. Returns their number.
     #[inline]
     pub(super) fn find_leading<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>) -> usize {
@@ -204,7 +139,7 @@ impl<J: Joint> Candidates<J> {
 }
 
 /// Less than 1 by more than the relative error of a bound in single precision.
-const BELOW: f32 = 1.0 - 1e-6;
+pub(super) const BELOW: f32 = 1.0 - 1e-6;
 
 #[inline]
 fn manhattan((x, y): (i32, i32)) -> f32 {

@@ -76,11 +76,11 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
         Ok(chunks.concat().into())
     }
 
-    /// Visits the subgoals from one to a hub of it, without the first, on a path that comes from `from`;
+    /// Visits the subgoals from one to a hub of it, without the first, on a path that arrives in a direction;
     /// `None` if the labels do not lead there.
     pub(super) fn visit(
         &self,
-        from: Vertex,
+        arrival: Vector,
         mut id: u32,
         hub: u32,
         mut visit: impl FnMut(Vertex),
@@ -90,7 +90,7 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
         }
         let (packed, subgoals) = (self.packed, self.subgoals);
         let mut at = subgoals.vertex(id);
-        let mut label = self.find(id, from.to(at), hub)?;
+        let mut label = self.find(id, arrival, hub)?;
         // Costs descend, so that damaged labels do not lead in circles.
         let mut rest = u64::MAX;
         loop {

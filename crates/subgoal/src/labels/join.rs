@@ -4,12 +4,13 @@
 //! lead on over a few of them only. So the steps that look at all of them are short loops without branches,
 //! which could not be predicted.
 
-use mediant_grid::{FreeSpace, Vertex, sight::Place};
+use mediant_grid::{Corners, FreeSpace, Vertex, sight::Place};
 use mediant_moves::Cost;
 
 use super::{
     HubLabels,
-    candidates::{Candidates, Joint, Line, Step, cells},
+    candidates::{Candidates, Joint, Step},
+    lines::{Line, sees},
     pack::MOST_COST_BITS,
 };
 use crate::placement::SubgoalPlacement;
@@ -35,6 +36,8 @@ pub(super) struct Join {
     ends: [Candidates<Step>; 2],
     /// The same for ends that need not be vertices.
     points: [Candidates<Line>; 2],
+    /// Slots, while those of several blocks are merged.
+    lists: [Vec<u32>; 2],
     hubs: Hubs,
 }
 
@@ -77,7 +80,8 @@ impl Join {
         let room = index.geometry.seen.most + 1;
         let hubs = Hubs { ways: vec![Way::NONE; index.subgoals()], query: FIRST_QUERY };
         let points = [Candidates::none(), Candidates::none()];
-        Self { ends: [Candidates::new(room), Candidates::new(room)], points, hubs }
+        let ends = [Candidates::new(room), Candidates::new(room)];
+        Self { ends, points, lists: [Vec::new(), Vec::new()], hubs }
     }
 
     /// Becomes the memory for other labels, and keeps what it has of it.
@@ -109,23 +113,44 @@ impl Join {
         hubs.arrive(index, arrivals, leading)
     }
 
-    /// The same at any angle between places that need not be vertices: `seen` tells the subgoals that each
-    /// sees.
+    /// The same at any angle between places that need not be vertices. `sweep` tells the subgoals that a place
+    /// sees, where the index does not know what may be seen from there.
     pub(super) fn meeting_of_places<P: SubgoalPlacement>(
         &mut self,
         index: &HubLabels<P>,
+        space: &FreeSpace<Corners>,
         [start, goal]: [Place; 2],
-        mut seen: impl FnMut(Place, &mut dyn FnMut(u32)),
+        mut sweep: impl FnMut(Place, &mut dyn FnMut(u32)),
     ) -> Option<Meeting> {
-        let Self { points: [departures, arrivals], hubs, .. } = self;
-        for (end, at) in [(&mut *departures, start), (&mut *arrivals, goal)] {
-            end.clear();
-            seen(at, &mut |id| end.add(index, at, id));
-        }
+        let Self { points: [departures, arrivals], lists, hubs, .. } = self;
+        let mut find = |end: &mut Candidates<Line>, at: Place| match (at.vertex(), &index.geometry.seen.cells)
+        {
+            (Some(vertex), _) => end.find_at(index, space, vertex),
+            (None, Some(cells)) => end.find_around(index, space, cells, at, lists),
+            (None, None) => {
+                end.count = 0;
+                sweep(at, &mut |id| (0..P::SIDES).for_each(|side| end.add(id * P::SIDES + side)));
+                end.find_lines(index, at);
+            }
+        };
+        find(departures, start);
+        find(arrivals, goal);
         hubs.leave(index, departures);
-        let leading = arrivals.find_leading(index);
-        arrivals.find_bounds(cells(goal.to(start)));
-        hubs.arrive(index, arrivals, leading)
+        // Of a vertex it is known.
+        let is_seen = |from: Place, id: u32| from.vertex().is_some() || sees(index, space, from, id);
+        loop {
+            let leading = arrivals.find_leading(index);
+            arrivals.find_bounds_to(goal.to(start));
+            let meeting = hubs.arrive(index, arrivals, leading)?;
+            if !is_seen(start, meeting.first) {
+                departures.remove::<P>(meeting.first);
+                hubs.leave(index, departures);
+            } else if !is_seen(goal, meeting.last) {
+                arrivals.remove::<P>(meeting.last);
+            } else {
+                return Some(meeting);
+            }
+        }
     }
 }
 

@@ -39,6 +39,7 @@ mod candidates;
 mod chain;
 mod codec;
 mod join;
+mod lines;
 mod many;
 mod merge;
 mod pack;

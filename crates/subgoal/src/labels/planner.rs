@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     corners::PointSight,
-    edge_path::{direct_between, direct_path, extend},
+    edge_path::{direct_path, extend, sees_between},
     placement::{EdgeCriterion, SubgoalPlacement},
 };
 
@@ -42,7 +42,7 @@ pub struct HubLabelSearch<S, I> {
     chain: Vec<Vertex>,
     answer: Option<(Ends, AnswerForm)>,
     /// The last answer between points that are no vertices.
-    between: Option<(PointEnds, Path)>,
+    between: Option<(PointEnds, AnswerForm)>,
     /// Sight of such ends.
     sight: Option<PointSight>,
     to_many: ToMany,
@@ -223,9 +223,9 @@ where
         to(start);
         to(vertex(first));
         let chains = Chains::<P>::new(&labels.packed, &labels.geometry.subgoals, labels.k);
-        is_whole &= chains.visit(start, first, hub, &mut to).is_some();
+        is_whole &= chains.visit(start.to(vertex(first)), first, hub, &mut to).is_some();
         chain.clear();
-        is_whole &= chains.visit(goal, last, hub, |at| chain.push(at)).is_some();
+        is_whole &= chains.visit(goal.to(vertex(last)), last, hub, |at| chain.push(at)).is_some();
         // The last of the chain is the hub, at which the path is already.
         chain.iter().rev().skip(1).for_each(|&at| to(at));
         to(vertex(last));
@@ -278,15 +278,12 @@ where
         if !space.points_connected(ends.start, ends.goal) {
             return Some(Ok(SearchStatus::Unreachable));
         }
-        let path = match direct_between(space, ends) {
-            Some(path) => Some(path),
-            None => {
-                let marks = labels.geometry.subgoals.marks();
-                let sight = sight.get_or_insert_with(|| PointSight::new(space, marks));
-                labels.path_between(space, (sight, join), places)
-            }
+        let answer = if sees_between(space, ends, places) {
+            Some(AnswerForm::Direct)
+        } else {
+            labels.meeting_between(space, (sight, join), places).map(AnswerForm::Over)
         };
-        self.between = path.map(|path| (ends, path));
+        self.between = answer.map(|answer| (ends, answer));
         Some(self.between.as_ref().map(|_| SearchStatus::Found).ok_or(QueryError::GaveUp { why: DAMAGED }))
     }
 
@@ -296,10 +293,16 @@ where
     }
 
     fn path_to_point(&mut self, at: Point) -> Option<Path> {
-        match &self.between {
-            Some((ends, path)) if at == ends.goal => Some(path.clone()),
-            Some((ends, _)) => (at == ends.start).then(|| Path::through([at])),
-            None => self.path_to(at.vertex()?),
+        let Some((ends, answer)) = self.between else { return self.path_to(at.vertex()?) };
+        if at != ends.goal {
+            return (at == ends.start).then(|| Path::through([at]));
+        }
+        match answer {
+            AnswerForm::Direct => Some(Path::straightened([ends.start, ends.goal])),
+            AnswerForm::Over(meeting) => {
+                let places = ends.places(P::at_corners(self.space.free_space())?).ok()?;
+                self.labels.path_between(places, meeting, [&mut self.waypoints, &mut self.chain])
+            }
         }
     }
 

@@ -1,7 +1,7 @@
 //! The labels themselves: what every pair of subgoals shares, and where each label leads.
 
 use mediant_grid::{
-    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex, uninterrupted,
+    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vector, Vertex, uninterrupted,
 };
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
@@ -242,10 +242,10 @@ fn check_chains<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize
         let range = packed.first_label::<P>(id)..packed.begin(packed.groups(id * P::SIDES, P::SIDES).end);
         counts[2] = counts[2].max(range.len());
         for label in range {
-            let (hub, at) = (packed.hub(packed.labels[label]), subgoals.vertex(id));
+            let hub = packed.hub(packed.labels[label]);
             let way = |chains: &Chains<'_, P>| {
                 let mut way = Vec::new();
-                chains.visit(at, id, hub, |at| way.push(at)).map(|()| way)
+                chains.visit(Vector::ZERO, id, hub, |at| way.push(at)).map(|()| way)
             };
             let found = way(&with).unwrap_or_else(|| panic!("no way from {id} to {hub}, k = {k}"));
             assert_eq!(found.last(), Some(&subgoals.vertex(hub)));

@@ -2,12 +2,15 @@
 
 use std::collections::HashMap;
 
-use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, PlacementKind, Vertex};
 
-use super::{Block, SIDE, SeenEntry, SeenIndex};
+use super::{
+    Block, EMPTY, SIDE, SeenEntry, SeenIndex,
+    cells::{CellIndex, CellSlot},
+};
 use crate::{
     chunks::in_chunks,
-    placement::{BuildContext, EdgeFinder, VertexRun},
+    placement::{BuildContext, CellRun, EdgeFinder, VertexRun},
 };
 
 /// The stage that an interrupted call names.
@@ -15,8 +18,9 @@ const DURING: &str = "finding what vertices see";
 
 /// The mask of all vertices.
 const FULL: u64 = !0;
-/// The number of the mask of no vertex.
-const EMPTY: u16 = 1;
+
+/// The part of the index that may be added for what is seen from the middle of cells.
+const MOST_OF_CELLS: usize = 8;
 
 /// Which vertices of a block are joined to a slot.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +54,7 @@ impl SeenIndex {
         let (width, height) = P::vertices(context.space.grid());
         let [columns, rows] = [width, height].map(|side| side.div_ceil(SIDE as u32));
         let count = columns as usize * rows as usize;
-        let mut links = links(context, (columns, count), progress, interrupt)?;
+        let (mut links, cells) = links(context, (columns, count), progress, interrupt)?;
         let free = free_vertices(context.space, columns, count, interrupt)?;
         for links in &mut links {
             interrupt.check(DURING)?;
@@ -63,7 +67,11 @@ impl SeenIndex {
         if size_of::<SeenEntry>() * total + size_of::<Block>() * count > most {
             return Ok(None);
         }
-        Self::of_links(&links, columns, count, most_masks, interrupt).map(Some)
+        let index = Self::of_links(&links, columns, count, most_masks, interrupt)?;
+        drop(links);
+        let cells = (P::KIND == PlacementKind::Corner).then(|| CellIndex::new(cells, height - 1));
+        let cells = cells.filter(|cells| cells.memory_bytes() <= index.memory_bytes() / MOST_OF_CELLS);
+        Ok(Some(Self { cells, ..index }))
     }
 
     /// The index of links in the order of their slots.
@@ -77,7 +85,8 @@ impl SeenIndex {
         let (masks, numbers) = dictionary(links, most_masks, interrupt)?;
         let (blocks, entries) = entries(links, &numbers, count, interrupt)?;
         let most = blocks.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
-        Ok(Self { columns, blocks: blocks.into(), entries: entries.into(), masks: masks.into(), most })
+        let (blocks, entries, masks) = (blocks.into(), entries.into(), masks.into());
+        Ok(Self { columns, blocks, entries, masks, most, cells: None })
     }
 }
 
@@ -135,26 +144,36 @@ fn for_entries(link: &Link, last: &mut u32, numbers: &HashMap<u64, u16>, mut vis
     }
 }
 
-/// The links of all subgoals, in the order of their slots.
+/// The links of all subgoals, in the order of their slots, and what is seen from cells alone.
 fn links<P: EdgeFinder>(
     context: BuildContext<'_, P>,
     (columns, count): (u32, usize),
     progress: &(impl Fn(usize) + Sync),
     interrupt: &Interrupt,
-) -> Result<Vec<Vec<Link>>, Interrupted> {
-    let scratch = || (P::Scratch::default(), [Marks::new(count), Marks::new(count)]);
-    in_chunks(context.subgoals.len(), scratch, progress, |(scratch, sides), ids| {
-        let mut links = Vec::new();
+) -> Result<(Vec<Vec<Link>>, Vec<CellSlot>), Interrupted> {
+    let scratch = || (P::Scratch::default(), [Marks::new(count), Marks::new(count)], Vec::new());
+    let found = in_chunks(context.subgoals.len(), scratch, progress, |(scratch, sides, runs), ids| {
+        let (mut links, mut cells) = (Vec::new(), Vec::new());
         for id in ids {
             interrupt.check(DURING)?;
             let subgoal = context.subgoals.vertex(id);
-            P::runs_to(context, scratch, subgoal, |run| sides[usize::from(run.is_right)].add(columns, run));
+            runs.clear();
+            let add = |run: VertexRun| sides[usize::from(run.is_right)].add(columns, run);
+            P::runs_to(context, scratch, subgoal, add, |run| runs.push(run));
+            for &CellRun { row, first, end, is_right } in &*runs {
+                let (side, marks) = (u32::from(is_right), &sides[usize::from(is_right)]);
+                let alone = (first..end).filter(|&column| !marks.touch(columns, column, row));
+                let (row, slot) = (row as u32, id * P::SIDES + side);
+                cells.extend(alone.map(|column| CellSlot { row, column: column as u32, slot }));
+            }
             for (side, marks) in (0..).zip(&mut *sides) {
                 marks.take(|block, mask| links.push(Link { block, slot: id * P::SIDES + side, mask }));
             }
         }
-        Ok(links)
-    })
+        Ok((links, cells))
+    })?;
+    let (links, cells): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+    Ok((links, cells.concat()))
 }
 
 /// The free vertices of each block.
@@ -258,6 +277,14 @@ impl Marks {
             *known |= mask;
             at = next;
         }
+    }
+
+    /// Whether a vertex of a cell is joined.
+    fn touch(&self, columns: u32, x: i32, y: i32) -> bool {
+        [(x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1)].into_iter().any(|(x, y)| {
+            let block = (y / SIDE) as u32 * columns + (x / SIDE) as u32;
+            self.masks[block as usize] >> (SIDE * (y % SIDE) + x % SIDE) & 1 == 1
+        })
     }
 
     /// Gives the masks, and forgets them.

@@ -2,7 +2,7 @@
 
 use mediant_grid::Interrupted;
 
-use super::{Block, SIDE, SeenEntry, SeenIndex};
+use super::{Block, CellIndex, SIDE, SeenEntry, SeenIndex};
 use crate::parts::{Reader, Writer};
 
 impl SeenIndex {
@@ -13,7 +13,11 @@ impl SeenIndex {
         };
         out.part32((0..2 * self.blocks.len()).map(halves))?;
         out.part32(self.entries.iter().map(|entry| u32::from(entry.after) << 16 | u32::from(entry.mask)))?;
-        out.part64(&self.masks)
+        out.part64(&self.masks)?;
+        let (rows, entries) =
+            self.cells.as_ref().map_or((&[][..], &[][..]), |cells| (&cells.rows, &cells.entries));
+        out.part32(rows.iter().copied())?;
+        out.part64(entries)
     }
 
     /// The index that was written, for a map with so many vertices and slots; `None` if it is none of such a
@@ -28,7 +32,9 @@ impl SeenIndex {
         let entry = |word: u32| SeenEntry { after: (word >> 16) as u16, mask: word as u16 };
         let entries: Box<[SeenEntry]> = reader.part32()?.map(entry).collect();
         let masks = reader.part64()?;
-        let index = Self { columns, blocks: blocks.into(), entries, masks, most: 0 };
+        let cells = CellIndex { rows: reader.part32()?.collect(), entries: reader.part64()? };
+        let cells = cells.check(height.saturating_sub(1), slots)?;
+        let index = Self { columns, blocks: blocks.into(), entries, masks, most: 0, cells };
         if index.blocks.len() != columns as usize * rows as usize + 1 {
             return None;
         }
@@ -52,5 +58,21 @@ impl SeenIndex {
             most = most.max(entries.len());
         }
         Some(most)
+    }
+}
+
+impl CellIndex {
+    /// What was read, on a map with so many rows and slots, if there is anything; `None` if it is none of
+    /// such a map.
+    fn check(self, rows: u32, slots: u32) -> Option<Option<Self>> {
+        let Self { rows: first, entries } = &self;
+        if first.is_empty() {
+            return entries.is_empty().then_some(None);
+        }
+        let fits = first.len() == rows as usize + 1
+            && first.is_sorted()
+            && first.last().is_some_and(|&end| end as usize == entries.len())
+            && entries.iter().all(|&entry| (entry as u32) < slots);
+        fits.then_some(Some(self))
     }
 }

@@ -193,6 +193,6 @@ fn it_keeps_within_its_memory() {
     let within = |most| of(most).is_some();
     assert!(within(whole.memory_bytes()) && !within(0) && !within(whole.entries.len() * 4));
     let size = (whole.columns, whole.blocks.len() - 1);
-    let links = uninterrupted(|never| links(ground.context(&space), size, &|_| {}, never));
+    let (links, _) = uninterrupted(|never| links(ground.context(&space), size, &|_| {}, never));
     assert!(links.iter().flatten().count() >= whole.entries.len());
 }

@@ -6,7 +6,7 @@ use mediant_grid::{
 };
 use mediant_moves::K;
 use mediant_oracle::{Rng, on_all_cores, seeds, suite_grid};
-use mediant_search::{Answer, Ends, Planner, QueryError};
+use mediant_search::{Answer, Ends, Planner, PointEnds, QueryError};
 use mediant_subgoal::{
     Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalPlacement,
 };
@@ -34,7 +34,11 @@ fn answers<P: SubgoalPlacement>(space: &FreeSpace<P>, labels: &HubLabels<P>) -> 
             let cost = planner.solve(query).map(|answer| answer.cost().map(f64::to_bits));
             let distance = planner.cost(query).map(|cost| cost.map(mediant_moves::Cost::to_bits));
             found.push([cost, distance]);
-            found.push([Ok(at_once.map(mediant_moves::Cost::to_bits)), Ok(None)]);
+            let [from, to] = [start, goal].map(|at| (f64::from(at.x) + 0.5, f64::from(at.y) + 0.5));
+            let between = planner.solve_at(PointEnds::new(from, to));
+            let between = between.map_or(Ok(None), |answer| answer.map(|answer| answer.cost()));
+            let between = between.map(|cost| cost.map(f64::to_bits));
+            found.push([Ok(at_once.map(mediant_moves::Cost::to_bits)), between]);
         }
     }
     found
@@ -126,7 +130,7 @@ fn every_flipped_bit_is_found() {
 /// Where the parts of the bytes are: their beginning, the width of their words and the number of words.
 fn parts(bytes: &[u8]) -> Vec<(usize, usize, usize)> {
     let (mut at, mut parts) = (Identity::BYTES + 8, Vec::new());
-    for width in [4, 4, 8, 4, 4, 4, 8, 1] {
+    for width in [4, 4, 8, 4, 8, 4, 4, 4, 8, 1] {
         let count = u64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes")) as usize;
         parts.push((at + 8, width, count));
         at += 8 + (width * count).next_multiple_of(8);
@@ -248,7 +252,7 @@ fn labels_of_no_subgoal_are_refused() {
     let space = space::<Corners>(&rooms(), DiagonalGap::Open);
     let made = labels(&space, K::Any);
     let bytes = made.to_bytes();
-    let (begin, width, count) = parts(&bytes)[6];
+    let (begin, width, count) = parts(&bytes)[8];
     let bits = 64 - (made.subgoals() as u64 - 1).leading_zeros();
     for wrong in [u64::MAX, (made.subgoals() as u64) << (64 - bits), 1 << (64 - bits - 1)] {
         for label in 0..count {
