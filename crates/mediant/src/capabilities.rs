@@ -20,7 +20,8 @@ pub struct Capabilities {
     pub title: &'static str,
     /// Its working, in a sentence.
     pub how: &'static str,
-    /// The placements that it takes.
+    /// The placements that it takes. At any angle an engine at corners leads from center to center, too
+    /// ([`Motion::centers`](crate::Motion::centers)).
     pub placements: &'static [PlacementKind],
     /// The largest finite k that it takes; the smallest is 2.
     pub max_k: u32,

@@ -1,7 +1,7 @@
 //! The list of the experiments.
 
 use crate::{
-    Error, central64, compared, engines,
+    Error, centers, central64, compared, engines,
     experiment::{Experiment, Page},
     families, growth, hammoud, hierarchies, hormazabal, kramm, memory, rivera, teleisa,
 };
@@ -21,6 +21,7 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
     engines::ENGINES,
     growth::GROWTH,
     families::FAMILIES,
+    centers::EXCESS,
     hierarchies::HPA,
     compared::PROGRAMS,
     memory::MEMORY,

@@ -20,6 +20,7 @@
 )]
 
 mod catalog;
+mod centers;
 mod central64;
 mod check;
 mod compared;

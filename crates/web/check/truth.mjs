@@ -18,7 +18,9 @@ export async function load(part = "") {
  * @param {any} mediant @param {string[]} rows @param {any} setup @param {number} [radius] of the agent
  */
 export function spaceOf(mediant, rows, { k, placement, corners, gap }, radius = 0) {
-  const motion = { k, placement, ...(placement === "center" ? { corners } : { gap }) };
+  const closed = corners === "always" ? "open" : "closed";
+  const rule = k === "any" && placement === "center" ? { gap: closed } : placement === "center" ? { corners } : { gap };
+  const motion = { k, placement, ...rule };
   const grid = mediant.Grid.fromRows(rows.map((row) => row.replaceAll("#", "@")));
   return (radius ? grid.forDisc(radius, motion) : grid).space(motion);
 }

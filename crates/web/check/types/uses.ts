@@ -100,7 +100,7 @@ const to: Points = [
   [2, 2],
 ];
 const how: How = { ...motion, engine: "jps", nearest: true, heuristic: "euclidean" };
-const path: Int32Array | undefined = rows.path(from, Int32Array.of(1, 1, 2, 2), how);
+const path: Int32Array | Float64Array | undefined = rows.path(from, Int32Array.of(1, 1, 2, 2), how);
 
 using space: Space = read.space(motion);
 const whole: WholeMotion = space.motion;
