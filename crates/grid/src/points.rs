@@ -166,7 +166,7 @@ struct Crossings {
     /// The column of vertices at or to the left of the crossing, and how far it is from there.
     column: i32,
     rest: i64,
-    /// What a cell measures in the units of that: the segment's height in parts, in parts. 0 before the first
+    /// The measure of a cell in the units of that: the segment's height in parts, in parts. 0 before the first
     /// line.
     cell: i64,
     /// From line to line.

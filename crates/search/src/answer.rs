@@ -148,9 +148,10 @@ impl Answer {
 
     /// The certificate of the path: no path at any angle between the same two ends is shorter than this, in
     /// cells, though it bends at corners of obstacles. It is the length of the path divided by the
-    /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer; at centers
-    /// the any-angle optimum itself or the straight line ([`Guarantee::lower_bound`]). `None` without a path,
-    /// and on a cost surface. The length divided by it says how far the path can be from the best at most.
+    /// [bound](Guarantee::bound) of the engine's guarantee, or the straight line if that is longer; at
+    /// centers the any-angle optimum itself or the straight line ([`Guarantee::lower_bound`]). `None`
+    /// without a path, and on a cost surface. The length divided by it says how far the path can be from the
+    /// best at most.
     ///
     /// ```
     /// use mediant_grid::{DiagonalGap, Rules};

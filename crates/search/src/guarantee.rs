@@ -51,7 +51,7 @@ impl Guarantee {
     /// [`bound_at_corners`] and [`bound_at_centers`]. `None` where no bound is proven.
     ///
     /// **At centers** N(k) is measured against any-angle paths that bend at centers, as its own paths do.
-    /// Those that bend at corners of obstacles can be shorter than Theorem 3 says: on the map `.@.` above
+    /// Paths that bend at corners of obstacles can be shorter than Theorem 3 says: on the map `.@.` above
     /// `...` every path over N(k) from (0, 0) to (2, 0) costs 4 under `never`, and that one 1 + √2. No bound
     /// of this kind holds against it ([`lower_bound`](Self::lower_bound)).
     ///

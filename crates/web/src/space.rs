@@ -135,8 +135,8 @@ impl Space {
         self.inner.check(&Path::through(path_points("path", path)?)).map_err(|error| broken(&error))
     }
 
-    /// The walk along a path, x, y, …: every vertex on it, where its waypoints are the turns alone. A path with
-    /// points between vertices has none.
+    /// The walk along a path, x, y, …: every vertex on it, where its waypoints are the turns alone. A path
+    /// with points between vertices has none.
     ///
     /// @throws MediantError `memory` for waypoints that are too far apart.
     pub fn vertices(

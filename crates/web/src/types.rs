@@ -40,7 +40,7 @@ export interface Motion {
   readonly corners?: "never" | "one" | "always";
   /**
    * At corners, whether a path may pass where two blocked cells touch diagonally: open or closed. Without a
-   * placement it means corners. open by default.
+   * placement it means corners. At centers it is for any angle, and closed by default. open by default.
    */
   readonly gap?: "open" | "closed";
 }

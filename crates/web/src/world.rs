@@ -90,8 +90,8 @@ impl World {
         Ok(at.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
-    /// The point of the map at a place of the world, for a path at any angle: rounded to multiples of 1/1024 of
-    /// a cell; undefined outside the map.
+    /// The point of the map at a place of the world, for a path at any angle: rounded to multiples of 1/1024
+    /// of a cell; undefined outside the map.
     #[wasm_bindgen(js_name = placeAt, unchecked_return_type = "Point | undefined")]
     pub fn place_at(
         &self,

@@ -16,8 +16,8 @@ use crate::{
 /// The ends of queries, their wishes, and the cells that count otherwise for them.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct QueryArgs {
-    /// The start of a single query: a vertex, at any angle any point, such as 2.03,0.5. Of several (repeat it),
-    /// the one with the shortest path is taken
+    /// The start of a single query: a vertex, at any angle any point, such as 2.03,0.5. Of several (repeat
+    /// it), the one with the shortest path is taken
     #[arg(id = "from", long = "from", value_name = "X,Y", requires = "aim")]
     #[arg(allow_hyphen_values = true, value_parser = parse_place)]
     from_places: Vec<Place>,

@@ -189,7 +189,7 @@ impl RunArgs {
     /// `None` without it.
     pub(crate) fn reference(&self, rules: Rules) -> Result<Option<Setup>, Failure> {
         let Some(engine) = self.reference else { return Ok(None) };
-        // What is connected between centers at any angle is what the moves connect.
+        // So the same is connected at any angle as by moves.
         let rules = match rules {
             Rules::Center(CornerRule::Always) => Rules::CenterGap(DiagonalGap::Open),
             Rules::Center(_) => Rules::CenterGap(DiagonalGap::Closed),

@@ -15,7 +15,7 @@ use crate::{
     run::{
         distances::{csv, furthest},
         query_error::explain,
-        report::motion_in_words,
+        report::{ends_in_words, motion_in_words},
     },
     terminal::{
         numbers::{count, grouped, hours, rounded},
@@ -122,8 +122,7 @@ pub(crate) fn reach(args: &ReachArgs, screen: &mut Screen) -> Result<Ending, Fai
         }
         let (places, sources) = ([&args.from[..], &args.to].concat(), [from, to].concat());
         if let Some(moved) = map.moved(placement, &places, &sources).filter(|&moved| moved > 0.0) {
-            let to = if motion.k == K::Any { "multiples of 1/1024 of a cell" } else { "vertices" };
-            writeln!(screen, "  moved to {to}: the sources by at most {moved:.3} m")?;
+            writeln!(screen, "  moved to {}: the sources by at most {moved:.3} m", ends_in_words(motion.k))?;
         }
     }
     Ok(Ending::Answered)

@@ -19,7 +19,7 @@ use crate::{
     map::NamedMap,
     run::{
         query_error::explain,
-        report::{by_auto, falls_back, k_in_words, without_path},
+        report::{by_auto, ends_in_words, falls_back, k_in_words, without_path},
     },
     terminal::{
         numbers::{count, rounded, time},
@@ -316,7 +316,8 @@ impl LengthReport<'_> {
         if let Some([starts, goals]) = self.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0)) {
             writeln!(
                 screen,
-                "moved to vertices: the starts by at most {starts:.3} m, the goals by at most {goals:.3} m"
+                "moved to {}: the starts by at most {starts:.3} m, the goals by at most {goals:.3} m",
+                ends_in_words(self.index.setup().k())
             )?;
         }
         writeln!(screen)

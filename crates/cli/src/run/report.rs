@@ -56,3 +56,8 @@ pub(crate) fn k_in_words(k: K) -> String {
 pub(crate) fn motion_in_words(motion: Motion) -> String {
     format!("{}, {}", motion.rules, k_in_words(motion.k))
 }
+
+/// The ends of paths to which places of the world are moved, in words.
+pub(crate) fn ends_in_words(k: K) -> &'static str {
+    if k == K::Any { "multiples of 1/1024 of a cell" } else { "vertices" }
+}

@@ -2,14 +2,12 @@
 
 use std::io::{self, Write};
 
-use mediant::{
-    Engine, K, Limit, Path, PlacementKind, Point, Stopped, files::WorldFrame, options::OptionValue,
-};
+use mediant::{Engine, Limit, Path, PlacementKind, Point, Stopped, files::WorldFrame, options::OptionValue};
 
 use super::{
     answer::{EditRecord, Found, QueryAnswer, QueryRecord, RunHead},
     queries::NO_PATH,
-    report::{Report, by_auto, falls_back, k_in_words},
+    report::{Report, by_auto, ends_in_words, falls_back, k_in_words},
     summary::{Edits, Ratios, References, Summary},
 };
 use crate::terminal::{
@@ -41,8 +39,8 @@ pub(crate) struct TableReport<'s> {
     world: Option<(WorldFrame, PlacementKind)>,
     /// The distance by which the ends were moved to vertices, or points, in meters.
     moved: Option<[f64; 2]>,
-    /// Whether the ends are any points.
-    is_any_angle: bool,
+    /// The ends of paths, in words.
+    ends: &'static str,
     rows: Vec<QueryRecord>,
     /// The number of errors that have no row.
     more_errors: u64,
@@ -65,7 +63,7 @@ impl<'s> TableReport<'s> {
             may_fall_back: false,
             world: None,
             moved: None,
-            is_any_angle: false,
+            ends: "",
             rows: Vec::new(),
             more_errors: 0,
         }
@@ -176,7 +174,7 @@ impl<'s> TableReport<'s> {
             let meters = path.cost() * frame.resolution();
             writeln!(self.screen, "  world {meters:.3} m, {}", in_world(frame, placement, path))?;
             if let Some([start, goal]) = self.moved {
-                let to = if self.is_any_angle { "multiples of 1/1024 of a cell" } else { "vertices" };
+                let to = self.ends;
                 let line = format!("  moved to {to}: the start by {start:.3} m, the goal by {goal:.3} m");
                 writeln!(self.screen, "{line}")?;
             }
@@ -241,7 +239,7 @@ impl Report for TableReport<'_> {
         let setup = run.setup;
         self.queries = run.queries;
         self.world = run.map.frame.map(|frame| (frame, setup.rules().placement()));
-        self.is_any_angle = setup.k() == K::Any;
+        self.ends = ends_in_words(setup.k());
         self.moved = run.query.moved.filter(|moved| moved.iter().any(|&meters| meters > 0.0));
         self.from_scenario = run.scenario.is_some();
         self.has_references = self.from_scenario && !run.map.has_costs();

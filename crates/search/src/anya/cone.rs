@@ -241,7 +241,7 @@ impl<'g> Cone<'g> {
     }
 }
 
-/// What a cone comes to.
+/// The outcome of a cone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ahead {
     /// The goal.

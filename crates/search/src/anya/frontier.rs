@@ -24,10 +24,10 @@ pub(super) struct Root<L> {
 
 /// A search node: the part of a line that a root sees.
 ///
-/// A *cone node* is the interval between two rays on a line other than the root's, with the steps of the rays:
-/// a search that goes on with it divides nothing. A *flat node* is a vertex at which a path may turn on the
-/// root's own line; the ray of `left` leads from the root to it. A node on line [`FINAL`](Self::FINAL) is the
-/// goal, between vertices, seen by a root at its row of cells.
+/// A *cone node* is the interval between two rays on a line other than the root's, with the steps of the
+/// rays: a search that goes on with it divides nothing. A *flat node* is a vertex at which a path may turn
+/// on the root's own line; the ray of `left` leads from the root to it. A node on line
+/// [`FINAL`](Self::FINAL) is the goal, between vertices, seen by a root at its row of cells.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) root: u32,

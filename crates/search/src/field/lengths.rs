@@ -24,10 +24,11 @@ use crate::path::Path;
 /// **Ties.** Of equally short paths that by the root that was settled first is kept; roots are settled in the
 /// order of their distance, then of their vertex number. So the result is the same on every platform.
 ///
-/// **Points.** Sources may be [points](FieldQuery::from_points) between vertices. And a point between vertices
-/// has a distance, too: the least over the corners of obstacles that it sees, and the sources. It is found
-/// when it is asked for, by a sweep over all that the point sees. What sweeps need of the map is found with
-/// the first one, for all fields of one maker: a bit a vertex, and two for each column of eight cells.
+/// **Points.** Sources may be [points](FieldQuery::from_points) between vertices. And a point between
+/// vertices has a distance, too: the least over the corners of obstacles that it sees, and the sources. It
+/// is found when it is asked for, by a sweep over all that the point sees. What sweeps need of the map is
+/// found with the first one, for all fields of one maker: a bit a vertex, and two for each column of eight
+/// cells.
 ///
 /// ```
 /// use std::sync::Arc;

@@ -133,7 +133,7 @@ impl fmt::Debug for FieldQuery<'_> {
 /// The sources of a field at any angle.
 pub(super) struct Sources {
     pub(super) vertices: Vec<VertexId>,
-    /// Those that are no vertices.
+    /// The sources that are no vertices.
     pub(super) between: Vec<Place>,
 }
 

@@ -1,6 +1,6 @@
 //! Paths at any angle between points that need not be vertices.
 //!
-//! What such a point may see is looked up, as of a vertex: it is what the vertices around see, and a few
+//! The subgoals that it may see are looked up, as of a vertex: those that the vertices around see, and a few
 //! subgoals more ([`SeenIndex`](crate::seen)). Some of them it does not see. But a shortest path leads over
 //! few of them, so a line of sight is tested for the two alone over which the path leads that was found. If
 //! it is not free, the subgoal is left out, and another path is found.

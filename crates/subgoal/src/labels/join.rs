@@ -113,8 +113,8 @@ impl Join {
         hubs.arrive(index, arrivals, leading)
     }
 
-    /// The same at any angle between places that need not be vertices. `sweep` tells the subgoals that a place
-    /// sees, where the index does not know what may be seen from there.
+    /// The same at any angle between places that need not be vertices. `sweep` tells the subgoals that a
+    /// place sees, where the index does not know what may be seen from there.
     pub(super) fn meeting_of_places<P: SubgoalPlacement>(
         &mut self,
         index: &HubLabels<P>,

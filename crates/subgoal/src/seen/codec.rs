@@ -62,7 +62,7 @@ impl SeenIndex {
 }
 
 impl CellIndex {
-    /// What was read, on a map with so many rows and slots, if there is anything; `None` if it is none of
+    /// The index that was read, on a map with so many rows and slots, if there is anything; `None` if it is none of
     /// such a map.
     fn check(self, rows: u32, slots: u32) -> Option<Option<Self>> {
         let Self { rows: first, entries } = &self;

@@ -1,4 +1,4 @@
-//! What points may see, by the index, against visibility sweeps and lines of sight.
+//! The sight of points, by the index, against visibility sweeps and lines of sight.
 
 use std::{collections::BTreeSet, sync::Arc};
 
