@@ -90,7 +90,7 @@ pub(crate) fn extend<P: Placement>(
     let K::Finite(k) = k else { return push_waypoint(waypoints, to) };
     if criterion == EdgeCriterion::Direct && k == FiniteK::N8 {
         // Both ends are directly reachable, so every optimal path of the empty grid is free.
-        let elbow = from + octile_elbow(from.to(to));
+        let elbow = from + octile_parts(from.to(to)).0;
         if elbow != from && elbow != to {
             push_waypoint(waypoints, elbow);
         }
@@ -109,15 +109,61 @@ pub(crate) fn extend<P: Placement>(
     }
 }
 
-/// The first of the two [elbows](elbows) over N(3), without a decomposition.
+/// Writes the path over N(2), or else N(3), along edges between directly reachable vertices to `waypoints`:
+/// every optimal path of the empty grid is free, so one over an elbow is.
+pub(crate) fn over_elbows(waypoints: &mut Vec<Vertex>, is_octile: bool, vertices: &[Vertex]) {
+    if is_octile {
+        over(waypoints, vertices, octile_parts);
+    } else {
+        over(waypoints, vertices, axis_parts);
+    }
+}
+
+/// The same with the two parts of each edge.
 #[inline]
-fn octile_elbow(v: Vector) -> Vector {
-    let (x, y) = v.abs();
-    let shorter = x.min(y) as i32;
+fn over(waypoints: &mut Vec<Vertex>, vertices: &[Vertex], parts: impl Fn(Vector) -> (Vector, [i32; 2])) {
+    let Some(&first) = vertices.first() else { return waypoints.clear() };
+    waypoints.resize(2 * vertices.len(), first);
+    // Without branches, which could not be predicted: each waypoint is written, over the one before if the
+    // path stands still or goes straight on there.
+    let (mut at, mut last, mut before) = (0, first, 0);
+    waypoints[0] = first;
+    for &to in &vertices[1..] {
+        let (elbow, directions) = parts(last.to(to));
+        for (to, direction) in [last + elbow, to].into_iter().zip(directions) {
+            let direction = if direction == 0 { before } else { direction };
+            at += usize::from(direction != before);
+            waypoints[at] = to;
+            before = direction;
+        }
+        last = to;
+    }
+    waypoints.truncate(at + 1);
+}
+
+/// The first of the two parts of an optimal path over N(3), and the directions of both as numbers; 0 for a
+/// part without length.
+#[inline]
+fn octile_parts(v: Vector) -> (Vector, [i32; 2]) {
+    let (x, y, sign_x, sign_y) = (v.x.abs(), v.y.abs(), v.x.signum(), v.y.signum());
+    let (shorter, is_wide) = (x.min(y), x > y);
+    let diagonal = Vector::new(sign_x * shorter, sign_y * shorter);
     // The moves of a quadrant in angular order: an axis move, the diagonal, the other axis move.
-    let begins_on_x = (v.x > 0) != (v.y > 0);
-    let diagonal = Vector::new(v.x.signum() * shorter, v.y.signum() * shorter);
-    if (x > y) == begins_on_x { v - diagonal } else { diagonal }
+    let is_axis_first = is_wide == ((v.x > 0) != (v.y > 0));
+    let along_axis = if x == y { 0 } else { if is_wide { sign_x } else { 3 * sign_y } };
+    let along_diagonal = if shorter == 0 { 0 } else { sign_x + 3 * sign_y };
+    if is_axis_first {
+        (v - diagonal, [along_axis, along_diagonal])
+    } else {
+        (diagonal, [along_diagonal, along_axis])
+    }
+}
+
+/// The same over N(2).
+#[inline]
+fn axis_parts(v: Vector) -> (Vector, [i32; 2]) {
+    let (x, y) = (v.x.signum(), 3 * v.y.signum());
+    if (v.x > 0) == (v.y > 0) { (Vector::new(0, v.y), [y, x]) } else { (Vector::new(v.x, 0), [x, y]) }
 }
 
 #[cfg(test)]
@@ -125,17 +171,19 @@ mod tests {
     use mediant_grid::{Vector, Vertex};
     use mediant_moves::{FiniteK, decompose};
 
-    use super::{elbows, octile_elbow};
+    use super::{axis_parts, elbows, octile_parts};
 
     #[test]
-    fn the_elbow_over_n3_is_that_of_the_decomposition() {
+    fn the_elbow_is_that_of_the_decomposition() {
         for (x, y) in (-5..=5).flat_map(|x| (-5..=5).map(move |y| (x, y))).filter(|&at| at != (0, 0)) {
             let (v, start) = (Vector::new(x, y), Vertex::new(0, 0));
-            let parts = decompose(v, FiniteK::N8).expect("a small displacement");
-            let (expected, found) = (elbows(start, parts)[0], start + octile_elbow(v));
-            let ends = [start, start + v];
-            let is_straight = ends.contains(&expected) && ends.contains(&found);
-            assert!(expected == found || is_straight, "{v:?}: {expected:?}, {found:?}");
+            for (k, (elbow, _)) in [(FiniteK::N4, axis_parts(v)), (FiniteK::N8, octile_parts(v))] {
+                let parts = decompose(v, k).expect("a small displacement");
+                let (expected, found) = (elbows(start, parts)[0], start + elbow);
+                let ends = [start, start + v];
+                let is_straight = ends.contains(&expected) && ends.contains(&found);
+                assert!(expected == found || is_straight, "k = {k}, {v:?}: {expected:?}, {found:?}");
+            }
         }
     }
 }

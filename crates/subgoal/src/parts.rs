@@ -23,7 +23,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    pub(crate) fn part8(&mut self, bytes: &[u8]) {
+    pub(crate) fn part8(&mut self, bytes: impl ExactSizeIterator<Item = u8>) {
         self.bytes.extend((bytes.len() as u64).to_le_bytes());
         self.bytes.extend(bytes);
         self.bytes.resize(self.bytes.len().next_multiple_of(8), 0);

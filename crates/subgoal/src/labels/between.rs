@@ -45,17 +45,17 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         &self,
         [start, goal]: [Place; 2],
         Meeting { hub, first, last, .. }: Meeting,
-        [bends, chain]: [&mut Vec<Vertex>; 2],
+        [bends, chain]: &mut [Vec<Vertex>; 2],
     ) -> Option<Path> {
         let subgoals = &self.geometry.subgoals;
         let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
         let arrival = |from: Place, id: u32| from.to(Place::of(subgoals.vertex(id)));
         bends.clear();
         bends.push(subgoals.vertex(first));
-        chains.visit(arrival(start, first), first, hub, |at| push_waypoint(bends, at))?;
         chain.clear();
         chain.push(subgoals.vertex(last));
-        chains.visit(arrival(goal, last), last, hub, |at| chain.push(at))?;
+        let ends = [(arrival(start, first), first), (arrival(goal, last), last)];
+        chains.visit_both(ends, hub, |at| push_waypoint(bends, at), |at| chain.push(at))?;
         // The last of the chain is the hub, at which the path is already.
         chain.iter().rev().skip(1).for_each(|&at| push_waypoint(bends, at));
         // Where the path goes straight on at its first or last subgoal, it does not turn there.

@@ -4,6 +4,8 @@
 //! of the same hub. Of several it is one by which a shortest path may leave that arrives along that edge. So
 //! it depends on the label alone, and is searched for once, when the labels are made: a byte beside each
 //! label says which of the next subgoal's labels it is. Where that does not fit in a byte, a query searches.
+//! Another byte says in which of its subgoal's groups the label is: a search for it ends where a processor does
+//! not expect it to.
 
 use std::marker::PhantomData;
 
@@ -17,7 +19,7 @@ use crate::{
     subgoals::Subgoals,
 };
 
-/// The byte of a label whose successor has to be searched for.
+/// The byte of a label whose successor, or whose group, has to be searched for.
 const SEARCH: u8 = u8::MAX;
 
 /// Packs the labels of all subgoals, each with the label that comes after it; `None` if a cost is too large.
@@ -28,7 +30,16 @@ pub(super) fn pack<P: EdgeFinder>(
 ) -> Result<Option<Packed>, Interrupted> {
     let Some(packed) = Packed::new(context, labels, interrupt)? else { return Ok(None) };
     let following = Chains::<P>::new(&packed, context.subgoals, context.k).following(interrupt)?;
-    Ok(Some(Packed { following, ..packed }))
+    Ok(Some(packed.followed_by::<P>(following.iter().copied())))
+}
+
+/// A way to a hub.
+#[derive(Clone, Copy, Debug)]
+struct Walk {
+    /// The subgoal that it has come to.
+    id: u32,
+    /// The label that leads on.
+    label: usize,
 }
 
 /// Follows labels to their hubs.
@@ -59,7 +70,7 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
                     for number in packed.groups(id * P::SIDES, P::SIDES) {
                         let group = packed.groups[number];
                         let arrival = at.to(self.subgoals.vertex(group.to));
-                        let first = packed.first_label::<P>(group.to);
+                        let first = packed.first_label(group.to);
                         following.extend(packed.labels[packed.begin(number)..group.end()].iter().map(
                             |&label| {
                                 let hub = packed.hub(label);
@@ -76,44 +87,69 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
         Ok(chunks.concat().into())
     }
 
-    /// Visits the subgoals from one to a hub of it, without the first, on a path that arrives in a direction;
-    /// `None` if the labels do not lead there.
-    pub(super) fn visit(
+    /// Visits the subgoals from two to a hub of both, without these, on paths that arrive in some directions;
+    /// `None` if the labels do not lead there. It takes turns: so a processor follows both ways at once.
+    pub(super) fn visit_both(
         &self,
-        arrival: Vector,
-        mut id: u32,
+        [first, last]: [(Vector, u32); 2],
         hub: u32,
-        mut visit: impl FnMut(Vertex),
+        mut visit_first: impl FnMut(Vertex),
+        mut visit_last: impl FnMut(Vertex),
     ) -> Option<()> {
-        if id == hub {
-            return Some(());
-        }
-        let (packed, subgoals) = (self.packed, self.subgoals);
-        let mut at = subgoals.vertex(id);
-        let mut label = self.find(id, arrival, hub)?;
-        // Costs descend, so that damaged labels do not lead in circles.
-        let mut rest = u64::MAX;
-        loop {
-            let cost = packed.cost(packed.labels[label]);
-            let groups = &packed.groups[packed.groups(id * P::SIDES, P::SIDES)];
-            let next = groups.iter().find(|group| group.end() > label).filter(|_| cost < rest)?.to;
-            let to = subgoals.vertex(next);
-            visit(to);
-            if next == hub {
+        let (mut first, mut last) = (self.begin(first, hub)?, self.begin(last, hub)?);
+        // No path visits a subgoal twice: damaged labels do not lead in circles.
+        for _ in 0..=self.subgoals.len() {
+            let go_on = [first.id != hub, last.id != hub];
+            if go_on == [false, false] {
                 return Some(());
             }
-            label = match packed.following[label] {
-                SEARCH => self.find(next, at.to(to), hub)?,
-                // Made up labels may lead to another hub.
-                after => Some(packed.first_label::<P>(next) + usize::from(after)).filter(|&label| {
-                    packed.labels.get(label).is_some_and(|&label| packed.hub(label) == hub)
-                })?,
-            };
-            (id, at, rest) = (next, to, cost);
+            if go_on[0] {
+                visit_first(self.step(&mut first, hub)?);
+            }
+            if go_on[1] {
+                visit_last(self.step(&mut last, hub)?);
+            }
         }
+        None
+    }
+
+    /// Begins the way from a subgoal, at which it arrives in a direction, to a hub.
+    fn begin(&self, (arrival, id): (Vector, u32), hub: u32) -> Option<Walk> {
+        let label = if id == hub { 0 } else { self.find(id, arrival, hub)? };
+        Some(Walk { id, label })
+    }
+
+    /// Goes on to the next subgoal.
+    #[inline(always)]
+    fn step(&self, walk: &mut Walk, hub: u32) -> Option<Vertex> {
+        let (packed, Walk { id, label }) = (self.packed, *walk);
+        // Made up labels may lead to another hub.
+        let following = *packed.following.get(label)?;
+        let next = if following.group == SEARCH {
+            self.find_group(id, label)?
+        } else {
+            let first = (packed.sides[(id * P::SIDES) as usize].first >> 4) as usize;
+            packed.groups.get(first + usize::from(following.group))?.to
+        };
+        let to = self.subgoals.vertex(next);
+        let label = match following.label {
+            _ if next == hub => label,
+            SEARCH => self.find(next, self.subgoals.vertex(id).to(to), hub)?,
+            after => packed.first_label(next) + usize::from(after),
+        };
+        *walk = Walk { id: next, label };
+        Some(to)
+    }
+
+    /// The subgoal to which the group of a label leads.
+    #[cold]
+    fn find_group(&self, id: u32, label: usize) -> Option<u32> {
+        let groups = &self.packed.groups[self.packed.groups(id * P::SIDES, P::SIDES)];
+        Some(groups.iter().find(|group| group.end() > label)?.to)
     }
 
     /// The number of the label by which the way leads on to a hub.
+    #[inline(never)]
     fn find(&self, id: u32, arrival: Vector, hub: u32) -> Option<usize> {
         // Over N(k) a path that is not taut may cost as little, and the labels may lead along it.
         self.find_taut(id, arrival, hub).or_else(|| self.find_any(id, hub))

@@ -14,7 +14,7 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Side {
     /// 16 times the number of its first group, plus how paths bend here.
-    first: u32,
+    pub(super) first: u32,
     /// The [summary](EdgeFinder::summary) of its edges.
     pub(crate) edges: u32,
 }
@@ -74,6 +74,15 @@ impl Group {
     }
 }
 
+/// How the path of a label goes on, in numbers that begin with 0; 255 has to be searched for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Following {
+    /// Which of the next subgoal's labels leads on to the hub.
+    pub(super) label: u8,
+    /// In which of its subgoal's groups the label is. This is not saved.
+    pub(super) group: u8,
+}
+
 /// All labels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Packed {
@@ -83,8 +92,10 @@ pub(crate) struct Packed {
     pub(crate) groups: Box<[Group]>,
     /// The hub, and in the lowest [`cost_bits`](Self::cost_bits) the cost.
     pub(crate) labels: Box<[u64]>,
-    /// For each label, which of the next subgoal's labels leads on to its hub: see [`chain`](super::chain).
-    pub(crate) following: Box<[u8]>,
+    /// For each label, how its path goes on: see [`chain`](super::chain).
+    pub(super) following: Box<[Following]>,
+    /// By subgoal, the number of its first label.
+    pub(super) first_labels: Box<[u32]>,
     pub(crate) cost_bits: u32,
 }
 
@@ -153,7 +164,8 @@ impl Packed {
         }
         sides.push(Side::last(groups.len()));
         let (sides, groups, labels) = (sides.into(), groups.into(), packed.into());
-        Ok(Some(Self { sides, groups, labels, following: Box::default(), cost_bits }))
+        let (following, first_labels) = (Box::default(), Box::default());
+        Ok(Some(Self { sides, groups, labels, following, first_labels, cost_bits }.with_first_labels::<P>()))
     }
 
     pub(super) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
@@ -164,8 +176,30 @@ impl Packed {
             (1..self.groups.len()).map(|group| (self.groups[group].end() - self.begin(group)) as u32),
         )?;
         out.part64(&self.labels)?;
-        out.part8(&self.following);
+        out.part8(self.following.iter().map(|following| following.label));
         Ok(())
+    }
+
+    /// Finds the first label of each subgoal.
+    fn with_first_labels<P: EdgeFinder>(self) -> Self {
+        let sides = self.sides[..self.sides.len() - 1].iter().step_by(P::SIDES as usize);
+        let first = sides.map(|side| self.begin((side.first >> 4) as usize) as u32).collect();
+        Self { first_labels: first, ..self }
+    }
+
+    /// The same labels, of which it is known which of the next subgoal's labels follows each.
+    pub(super) fn followed_by<P: EdgeFinder>(self, labels: impl Iterator<Item = u8>) -> Self {
+        let mut groups = Vec::with_capacity(self.labels.len());
+        for id in 0..self.first_labels.len() as u32 {
+            for (group, number) in self.groups(id * P::SIDES, P::SIDES).zip(0_u8..=u8::MAX) {
+                groups.resize(self.groups[group].end(), number);
+            }
+            // Those of further groups are searched for.
+            let next = self.groups(id * P::SIDES, P::SIDES).end;
+            groups.resize(self.begin(next), u8::MAX);
+        }
+        let following = labels.zip(groups).map(|(label, group)| Following { label, group }).collect();
+        Self { following, ..self }
     }
 
     /// The labels that were written for these subgoals; `None` if there are none of them.
@@ -206,7 +240,11 @@ impl Packed {
         sides.push(Side::last(groups.len()));
         let is_whole = rest.next().is_none() && end == labels.len();
         let (sides, groups) = (sides.into(), groups.into());
-        is_whole.then_some(Self { sides, groups, labels, following, cost_bits })
+        let (none, first_labels) = (Box::default(), Box::default());
+        is_whole.then(|| {
+            let packed = Self { sides, groups, labels, following: none, first_labels, cost_bits };
+            packed.with_first_labels::<P>().followed_by::<P>(following.iter().copied())
+        })
     }
 
     /// The numbers of the groups of the slots from `slot` on, `count` of them.
@@ -224,8 +262,8 @@ impl Packed {
 
     /// The number of the first label of a subgoal.
     #[inline]
-    pub(crate) fn first_label<P: EdgeFinder>(&self, id: u32) -> usize {
-        self.begin((self.sides[(id * P::SIDES) as usize].first >> 4) as usize)
+    pub(crate) fn first_label(&self, id: u32) -> usize {
+        self.first_labels[id as usize] as usize
     }
 
     /// The hub of a label.
@@ -242,8 +280,9 @@ impl Packed {
 
     /// The memory used, in bytes.
     pub(crate) const fn memory_bytes(&self) -> usize {
-        let Self { sides, groups, labels, following, .. } = self;
-        size_of_val(&**sides) + size_of_val(&**groups) + size_of_val(&**labels) + size_of_val(&**following)
+        let Self { sides, groups, labels, following, first_labels, cost_bits: _ } = self;
+        let of_labels = size_of_val(&**labels) + size_of_val(&**following) + size_of_val(&**first_labels);
+        size_of_val(&**sides) + size_of_val(&**groups) + of_labels
     }
 }
 

@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     corners::PointSight,
-    edge_path::{direct_path, extend, sees_between},
+    edge_path::{direct_path, extend, over_elbows, sees_between},
     placement::{EdgeCriterion, SubgoalPlacement},
 };
 
@@ -38,8 +38,8 @@ pub struct HubLabelSearch<S, I> {
     labels: I,
     join: Join,
     waypoints: Vec<Vertex>,
-    /// Scratch memory: the subgoals from the hub to the goal, in the other direction.
-    chain: Vec<Vertex>,
+    /// Scratch memory: start, subgoals and goal of the path; and those from the goal to the hub.
+    chain: [Vec<Vertex>; 2],
     answer: Option<(Ends, AnswerForm)>,
     /// The last answer between points that are no vertices.
     between: Option<(PointEnds, AnswerForm)>,
@@ -81,7 +81,7 @@ where
     pub fn new(space: S, labels: I) -> Result<Self, Mismatch> {
         labels.check(&*space)?;
         let join = Join::new(&*labels);
-        let (waypoints, chain, to_many) = (Vec::new(), Vec::new(), ToMany::default());
+        let (waypoints, chain, to_many) = (Vec::new(), [Vec::new(), Vec::new()], ToMany::default());
         let as_near = Vec::new();
         let (answer, between, sight) = (None, None, None);
         Ok(Self { space, labels, join, waypoints, chain, answer, between, sight, to_many, as_near })
@@ -216,20 +216,40 @@ where
     fn write(&mut self, Ends { start, goal, .. }: Ends, meeting: Meeting, k: K) -> bool {
         let Self { space, labels, waypoints, chain, .. } = self;
         let (space, labels) = (space.free_space(), &**labels);
-        waypoints.clear();
-        let mut to = |at: Vertex| extend(waypoints, space, (k, labels.criterion), at);
-        let Meeting { hub, first, last, .. } = meeting;
-        let (vertex, mut is_whole) = (|id: u32| labels.geometry.subgoals.vertex(id), true);
-        to(start);
-        to(vertex(first));
-        let chains = Chains::<P>::new(&labels.packed, &labels.geometry.subgoals, labels.k);
-        is_whole &= chains.visit(start.to(vertex(first)), first, hub, &mut to).is_some();
-        chain.clear();
-        is_whole &= chains.visit(goal.to(vertex(last)), last, hub, |at| chain.push(at)).is_some();
-        // The last of the chain is the hub, at which the path is already.
-        chain.iter().rev().skip(1).for_each(|&at| to(at));
-        to(vertex(last));
-        to(goal);
+        let is_whole = labels.follow([start, goal], meeting, chain);
+        let [way, _] = chain;
+        match k {
+            K::Finite(k) if labels.criterion == EdgeCriterion::Direct => {
+                over_elbows(waypoints, k == FiniteK::N8, way);
+            }
+            _ => {
+                waypoints.clear();
+                way.iter().for_each(|&at| extend(waypoints, space, (k, labels.criterion), at));
+            }
+        }
+        is_whole
+    }
+}
+
+impl<P: SubgoalPlacement> HubLabels<P> {
+    /// Writes start, goal and the subgoals of the path over a meeting point between them to the first list;
+    /// the other is scratch memory. Returns `false` if the labels are damaged.
+    fn follow(
+        &self,
+        [start, goal]: [Vertex; 2],
+        Meeting { hub, first, last, .. }: Meeting,
+        [way, back]: &mut [Vec<Vertex>; 2],
+    ) -> bool {
+        let subgoals = &self.geometry.subgoals;
+        let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
+        let ends = [(start, first), (goal, last)].map(|(from, id)| (from.to(subgoals.vertex(id)), id));
+        way.clear();
+        way.extend([start, subgoals.vertex(first)]);
+        back.clear();
+        back.extend([goal, subgoals.vertex(last)]);
+        let is_whole = chains.visit_both(ends, hub, |at| way.push(at), |at| back.push(at)).is_some();
+        // The last is the hub, at which the path is already.
+        way.extend(back.iter().rev().skip(1));
         is_whole
     }
 }
@@ -301,7 +321,7 @@ where
             AnswerForm::Direct => Some(Path::straightened([ends.start, ends.goal])),
             AnswerForm::Over(meeting) => {
                 let places = ends.places(P::at_corners(self.space.free_space())?).ok()?;
-                self.labels.path_between(places, meeting, [&mut self.waypoints, &mut self.chain])
+                self.labels.path_between(places, meeting, &mut self.chain)
             }
         }
     }

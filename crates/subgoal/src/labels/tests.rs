@@ -7,7 +7,13 @@ use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
 
 use super::{
-    HubLabels, build::whole_labels, chain::Chains, join::Join, merge::Label, pack::Packed, whole::keep_whole,
+    HubLabels,
+    build::whole_labels,
+    chain::Chains,
+    join::Join,
+    merge::Label,
+    pack::{Following, Packed},
+    whole::keep_whole,
 };
 use crate::{
     arc::NONE,
@@ -235,23 +241,25 @@ fn check_chains<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize
     let labels =
         HubLabels::within(&space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there is memory");
     let (packed, subgoals) = (&labels.packed, &labels.geometry.subgoals);
-    let searched = Packed { following: vec![u8::MAX; packed.labels.len()].into(), ..packed.clone() };
+    let search = Following { label: u8::MAX, group: u8::MAX };
+    let searched = Packed { following: vec![search; packed.labels.len()].into(), ..packed.clone() };
     let [with, without] = [packed, &searched].map(|packed| Chains::<P>::new(packed, subgoals, k));
     let mut counts = [0; 3];
     for id in 0..subgoals.len() as u32 {
-        let range = packed.first_label::<P>(id)..packed.begin(packed.groups(id * P::SIDES, P::SIDES).end);
+        let range = packed.first_label(id)..packed.begin(packed.groups(id * P::SIDES, P::SIDES).end);
         counts[2] = counts[2].max(range.len());
         for label in range {
             let hub = packed.hub(packed.labels[label]);
             let way = |chains: &Chains<'_, P>| {
                 let mut way = Vec::new();
-                chains.visit(Vector::ZERO, id, hub, |at| way.push(at)).map(|()| way)
+                let ends = [(Vector::ZERO, id), (Vector::ZERO, hub)];
+                chains.visit_both(ends, hub, |at| way.push(at), |_| {}).map(|()| way)
             };
             let found = way(&with).unwrap_or_else(|| panic!("no way from {id} to {hub}, k = {k}"));
             assert_eq!(found.last(), Some(&subgoals.vertex(hub)));
             assert_eq!(Some(&found), way(&without).as_ref(), "from {id} to {hub}, k = {k}");
             counts[0] += usize::from(found.len() > 1);
-            counts[1] += usize::from(packed.following[label] != u8::MAX);
+            counts[1] += usize::from(packed.following[label].label != u8::MAX);
         }
     }
     counts
