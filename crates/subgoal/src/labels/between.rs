@@ -1,7 +1,7 @@
 //! Paths at any angle between points that need not be vertices.
 //!
-//! The subgoals that it may see are looked up, as of a vertex: those that the vertices around see, and a few
-//! subgoals more ([`SeenIndex`](crate::seen)). Some of them it does not see. But a shortest path leads over
+//! The subgoals that such a point may see are looked up, as of a vertex: those that the vertices around see,
+//! and a few more ([`SeenIndex`](crate::seen)). Some of them it does not see. But a shortest path leads over
 //! few of them, so a line of sight is tested for the two alone over which the path leads that was found. If
 //! it is not free, the subgoal is left out, and another path is found.
 //!

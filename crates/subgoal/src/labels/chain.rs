@@ -4,8 +4,8 @@
 //! of the same hub. Of several it is one by which a shortest path may leave that arrives along that edge. So
 //! it depends on the label alone, and is searched for once, when the labels are made: a byte beside each
 //! label says which of the next subgoal's labels it is. Where that does not fit in a byte, a query searches.
-//! Another byte says in which of its subgoal's groups the label is: a search for it ends where a processor does
-//! not expect it to.
+//! Another byte says in which of its subgoal's groups the label is: a search for it ends where a processor
+//! does not expect it to.
 
 use std::marker::PhantomData;
 

@@ -194,7 +194,7 @@ impl Packed {
             for (group, number) in self.groups(id * P::SIDES, P::SIDES).zip(0_u8..=u8::MAX) {
                 groups.resize(self.groups[group].end(), number);
             }
-            // Those of further groups are searched for.
+            // Labels of further groups are searched for.
             let next = self.groups(id * P::SIDES, P::SIDES).end;
             groups.resize(self.begin(next), u8::MAX);
         }

@@ -62,7 +62,7 @@ impl SeenIndex {
 }
 
 impl CellIndex {
-    /// The index that was read, on a map with so many rows and slots, if there is anything; `None` if it is none of
+    /// The list that was read, on a map with so many rows and slots, if there is any; `None` if it is none of
     /// such a map.
     fn check(self, rows: u32, slots: u32) -> Option<Option<Self>> {
         let Self { rows: first, entries } = &self;

@@ -12,9 +12,9 @@
 //! than 57,070 others.
 //!
 //! **Points between vertices.** A point in the middle of a cell sees what the cell's vertices see, and a few
-//! subgoals more, of which there is a list ([`cells`]). What all four vertices see, it sees: the lines of
-//! sight from the cell fill a cone around it, and a blocked cell, as large as this one, does not fit in
-//! where the cone is narrower. So it would stand in the way of a vertex. Of the rest a line of sight tells.
+//! subgoals more, of which there is a list ([`cells`]). A subgoal that all four vertices see, it sees: the
+//! lines of sight from the cell fill a cone around it, and a blocked cell, as large as this one, does not fit
+//! in where the cone is narrower. So it would stand in the way of a vertex. A line of sight tells the rest.
 //!
 //! **One for every k.** At corners it depends on the map alone: paths are taut for every k and at any angle.
 
@@ -44,7 +44,8 @@ pub(crate) struct SeenIndex {
     pub(crate) masks: Box<[u64]>,
     /// The most entries of a block.
     pub(crate) most: usize,
-    /// The subgoals seen from cells, but not from their vertices; `None` at centers, and if that is much.
+    /// The slots that are seen from cells, but not from their vertices; `None` at centers, and if there are
+    /// many.
     pub(crate) cells: Option<CellIndex>,
 }
 

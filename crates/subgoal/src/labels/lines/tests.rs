@@ -1,4 +1,4 @@
-//! The sight of points, by the index, against visibility sweeps and lines of sight.
+//! The subgoals that points may see, by the index, against visibility sweeps and lines of sight.
 
 use std::{collections::BTreeSet, sync::Arc};
 
