@@ -247,7 +247,7 @@
 //!
 //! let space = Map::from_fn(20, 10, |x, y| x == 10 && y > 1)?.space(Motion::default())?;
 //! let field = space.field([(18, 8)])?;
-//! let mut agents = [(1, 8), (4, 4), (15, 2)].map(mediant::Vertex::from);
+//! let mut agents = [(1, 8), (4, 4), (15, 2)].map(mediant::Point::from);
 //! for _frame in 0..5 {
 //!     for agent in &mut agents {
 //!         *agent = field.next(*agent).unwrap_or(*agent);
@@ -287,7 +287,7 @@
 //! let exits = index.goals([(0, 9), (12, 9), (19, 0)])?;
 //! let mut planner = index.planner();
 //! if let Some((number, cells)) = planner.nearest((9, 9), &exits)? {
-//!     println!("exit {number} at {}, {cells:.1} cells", exits.vertices()[number]);
+//!     println!("exit {number} at {}, {cells:.1} cells", exits.points()[number]);
 //!     assert_eq!(number, 0);
 //! }
 //! # Ok::<(), mediant::Error>(())
