@@ -19,7 +19,8 @@ export async function load(part = "") {
  */
 export function spaceOf(mediant, rows, { k, placement, corners, gap }, radius = 0) {
   const closed = corners === "always" ? "open" : "closed";
-  const rule = k === "any" && placement === "center" ? { gap: closed } : placement === "center" ? { corners } : { gap };
+  const rule =
+    k === "any" && placement === "center" ? { gap: closed } : placement === "center" ? { corners } : { gap };
   const motion = { k, placement, ...rule };
   const grid = mediant.Grid.fromRows(rows.map((row) => row.replaceAll("#", "@")));
   return (radius ? grid.forDisc(radius, motion) : grid).space(motion);

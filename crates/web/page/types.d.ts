@@ -131,8 +131,8 @@ export interface LaneAnswer {
   /** `optimal(3)`, `suboptimal`, … */
   guarantee: string;
   optimal: boolean;
-  /** The certificate: no path at any angle is shorter than length / bound. At centers it is the optimum at any
-   *  angle itself, or the straight line. */
+  /** The certificate: no path at any angle is shorter than length / bound. At centers it is the optimum
+   *  itself, or the straight line. */
   bound: number | null;
   /** The steps of the search (`Trace.steps` of the package), if they were recorded; there are
    *  `verticesPerRow` in a row. */
@@ -254,7 +254,7 @@ export interface Walker {
   x: number;
   y: number;
   /** The rest of its path, in vertices. */
-  path: Int32Array;
+  path: Waypoints;
   state: "walking" | "arrived" | "stuck";
   /** Whether it has just planned anew. */
   fresh: boolean;

@@ -15,7 +15,8 @@ const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-9, `${a}, not ${b}`);
 /** The length of waypoints x, y, …. @param {ArrayLike<number>} path */
 function lengthOf(path) {
   let length = 0;
-  for (let i = 2; i < path.length; i += 2) length += Math.hypot(path[i] - path[i - 2], path[i + 1] - path[i - 1]);
+  for (let i = 2; i < path.length; i += 2)
+    length += Math.hypot(path[i] - path[i - 2], path[i + 1] - path[i - 1]);
   return length;
 }
 
@@ -71,7 +72,7 @@ test("between centers paths bend at corners", () => {
 
 test("meters lead to meters", () => {
   const world = new World(60, 40, 0.05, [-1, -0.5]);
-  const wall = ".".repeat(30) + "@" + ".".repeat(29);
+  const wall = `${".".repeat(30)}@${".".repeat(29)}`;
   const grid = Grid.fromRows(Array.from({ length: 40 }, (_, y) => (y < 5 ? ".".repeat(60) : wall)));
   for (const placement of /** @type {const} */ (["center", "corner"])) {
     const [start, goal] = [world.placeAt(-0.732, 0.123, placement), world.placeAt(1.618, 0.271, placement)];

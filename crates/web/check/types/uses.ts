@@ -82,7 +82,7 @@ const radius: Radius = { meters: 0.02 };
 const fitted: Grid = placed.forDisc(radius, motion);
 const sizes: number[] = [fitted.width, world.width, world.height];
 const place: [number, number, number] = placed.world?.origin ?? [world.resolution, world.cells(1), 0];
-const where: Point | undefined = world.vertexAt(1.02, 2.02, "corner");
+const where: Point | undefined = world.vertexAt(1.02, 2.02, "corner") ?? world.placeAt(1.02, 2.02);
 const meters: Float64Array = world.pointOf([0, 0]);
 const scenario: Scenario = Scenario.read(bytes);
 scenario.check(grid);

@@ -83,7 +83,8 @@ function withEngine(setup, engines) {
   const name = engineName(setup.engine);
   if (setup.k === "any") {
     mended.engine = "anya";
-    const said = `${name} takes a finite k. Anya searches every angle. ${name} is back when k is finite again.`;
+    const back = `${name} is back when k is finite again.`;
+    const said = `${name} takes a finite k. Anya searches every angle. ${back}`;
     return { setup: mended, said };
   }
   const { setup: other } = mendedEngine(mended, engines);

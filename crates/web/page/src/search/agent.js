@@ -1,5 +1,6 @@
 // One agent: what it is, what it needs, and what it does with the answer.
 
+/** @import { Waypoints } from "../../mediant/mediant.js" */
 /** @import { Errand, ErrandDone } from "./protocol.js" */
 import { placesAround, rest } from "./walk.js";
 
@@ -9,7 +10,7 @@ import { placesAround, rest } from "./walk.js";
  * @property {number} id
  * @property {number} x
  * @property {number} y
- * @property {Int32Array} path - Waypoints x, y, …, in vertices.
+ * @property {Waypoints} path - Waypoints x, y, …, in vertices.
  * @property {number} next - The waypoint it walks to.
  * @property {"walking" | "arrived" | "stuck"} state
  * @property {boolean} fresh - Whether it has just got another way.

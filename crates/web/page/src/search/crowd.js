@@ -2,7 +2,7 @@
 // does not.
 
 /** @import { Point } from "../../types.js" */
-/** @import { Planner, Space } from "../../mediant/mediant.js" */
+/** @import { Planner, Space, Waypoints } from "../../mediant/mediant.js" */
 /** @import { Errand, ErrandDone, Walk } from "./protocol.js" */
 /** @import { Say } from "./search.js" */
 /** @import { Session } from "./session.js" */
@@ -65,7 +65,7 @@ export function* walk(session, { id, goal, nearest, seed, errands }, say) {
  * @param {Session} session
  * @param {Errand} errand
  * @param {{ goal: Point, nearest: boolean, random: Random, measured: { pace: number } }} how
- * @returns {Generator<void, { kept: boolean, path: Int32Array | null }>}
+ * @returns {Generator<void, { kept: boolean, path: Waypoints | null }>}
  */
 function* oneErrand(session, { path, places }, { goal, nearest, random, measured }) {
   const [space, planner] = [session.space, session.walker];

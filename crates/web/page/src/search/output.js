@@ -68,7 +68,10 @@ function picture(session, { setup, start, goal, radius }, { format, overlay }, t
   const space = /** @type {Space} */ (session.space);
   // What is searched are corners, if paths bend there.
   const [placement, shift] = bendsAtCorners(setup) ? ["corner", offsetOf(setup.placement)] : ["center", 0];
-  const picture = new Picture(/** @type {Grid} */ (session.grid), /** @type {"center" | "corner"} */ (placement));
+  const picture = new Picture(
+    /** @type {Grid} */ (session.grid),
+    /** @type {"center" | "corner"} */ (placement),
+  );
   const moved = (/** @type {ArrayLike<number>} */ at) => Float64Array.from(at, (number) => number + shift);
   const field = overlay === "distances" || overlay === "flow" ? space.field(goal) : null;
   try {

@@ -2,7 +2,7 @@
 // here that runs long: both sides import it.
 
 /** @import { Change, LaneAnswer, LaneSetup, LaneState, Motion, Point, Rect } from "../../types.js" */
-/** @import { EngineInfo, Options } from "../../mediant/mediant.js" */
+/** @import { EngineInfo, Options, Waypoints } from "../../mediant/mediant.js" */
 import { bendsAtCorners, gapOf } from "../model/setups.js";
 
 /**
@@ -32,7 +32,7 @@ import { bendsAtCorners, gapOf } from "../model/setups.js";
  * path from the first of these places that has a way to the goal; without places, from one chosen at random.
  * @typedef {object} Errand
  * @property {number} agent
- * @property {Int32Array | null} path
+ * @property {Waypoints | null} path
  * @property {number[]} places - x, y, x, y, …
  */
 
@@ -48,7 +48,7 @@ import { bendsAtCorners, gapOf } from "../model/setups.js";
 
 /**
  * The outcome of an errand. `path` is null if there is no way; `kept` says that the old path holds.
- * @typedef {{ agent: number, kept: boolean, path: Int32Array | null }} ErrandDone
+ * @typedef {{ agent: number, kept: boolean, path: Waypoints | null }} ErrandDone
  */
 
 /**
@@ -124,7 +124,9 @@ export const MOST_CELLS = 4096 * 4096;
  */
 export function motionOf(setup) {
   const { k, placement } = setup;
-  return bendsAtCorners(setup) ? { k, placement, gap: gapOf(setup) } : { k, placement, corners: setup.corners };
+  return bendsAtCorners(setup)
+    ? { k, placement, gap: gapOf(setup) }
+    : { k, placement, corners: setup.corners };
 }
 
 /**

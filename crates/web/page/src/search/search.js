@@ -264,7 +264,7 @@ function* warmed(session, ask, first) {
  * @returns {Generator<void, void>}
  */
 export function* refine(session, ask, answer, timed, say) {
-  const { number, setup } = ask;
+  const { number } = ask;
   if (answer.status === "invalid") {
     return;
   }

@@ -2,6 +2,7 @@
 // vertices from which it could go another way. Pure: no worker, no clock.
 
 /** @import { Rect } from "../../types.js" */
+/** @import { Waypoints } from "../../mediant/mediant.js" */
 /** @import { Agent } from "./agent.js" */
 
 /** The vertices of centers are half a cell further than their numbers. @param {string} placement */
@@ -37,7 +38,7 @@ export function advance(agent, cells, offset) {
  * that the agent has passed.
  * @param {Agent} agent
  * @param {number} offset
- * @returns {Int32Array}
+ * @returns {Waypoints}
  */
 export function rest({ path, next, x, y }, offset) {
   if (2 * next >= path.length) {

@@ -97,8 +97,8 @@ function dot(context, { dpr }, rim, color) {
 }
 
 /** Dots at the waypoints, if they are well apart. @param {CanvasRenderingContext2D} context @param {Frame}
- *  frame @param {Int32Array} path @param {number} shift @param {number} width @param {string} color @param
- *  {string} rim */
+ *  frame @param {import("../../types.d.ts").LaneAnswer["path"]} path @param {number} shift @param {number}
+ *  width @param {string} color @param {string} rim */
 function drawTurns(context, frame, path, shift, width, color, rim) {
   const { left, top, scale, dpr } = frame;
   const first = Math.abs(path[2] - path[0]) + Math.abs(path[3] - path[1]);
