@@ -166,8 +166,8 @@ struct Crossings {
     /// The column of vertices at or to the left of the crossing, and how far it is from there.
     column: i32,
     rest: i64,
-    /// The measure of a cell in the units of that: the segment's height in parts, in parts. 0 before the first
-    /// line.
+    /// The measure of a cell in the units of that: the segment's height in parts, in parts. 0 before the
+    /// first line.
     cell: i64,
     /// From line to line.
     step: (i32, i64),

@@ -226,7 +226,8 @@ class Things:
             return {"free": ".", "blocked": "#"}[parameter.name]
         if parameter.name in by_name and not parameter.type.startswith("PathPoints"):
             return by_name[parameter.name]
-        kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "Place": (1, 3), "Places": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}
+        kinds = {"Point": (1, 3), "Points": [(1, 3), (0, 4)], "K": 3, "bool": True, "PathPoints": "touched"}
+        kinds.update({"Place": (1, 3), "Places": [(1, 3), (0, 4)]})
         kinds.update({"Placement": "center", "Corners": "one", "Gap": "open", "Heuristic": "zero"})
         kinds.update({"Variant": "exact", "Smooth": "taut", "Heading": "from"})
         kind = parameter.type.split(" | ")[0].split("[")[0]

@@ -46,7 +46,8 @@ def test_between_centers_paths_bend_at_corners():
     assert table[0, 0] == pytest.approx(answer.distance) and table[1, 1] == pytest.approx(0.75 * math.sqrt(2))
     field = grid.field((0, 0), **how)
     assert field.shape == (2, 3) and field.get((0, 2)) == pytest.approx(answer.distance)
-    assert field.distances()[1, 1] == pytest.approx(math.sqrt(2)) and field.next()[0, 2].tolist() == [0.5, 1.5]
+    assert field.distances()[1, 1] == pytest.approx(math.sqrt(2))
+    assert field.next()[0, 2].tolist() == [0.5, 1.5]
     assert field.path_from((0, 2)).tolist() == answer.path[::-1].tolist()
     around = grid.field([(0.25, 0), (1, 2)], **how)
     assert around.nearest_source((0, 0)) == (0.25, 0.0) and around.nearest_source((0, 2)) == (1, 2)

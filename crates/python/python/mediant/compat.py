@@ -487,9 +487,9 @@ def astar_path(
     path = Grid(blocked).path(
         first, last, k=3 if allow_diagonal else 2, corners="always", engine=engine, points="vertices"
     )
-    if path is not None and float(each) * (len(path) - 1) > float(np.finfo(np.float32).max):
+    if path is None or float(each) * (len(path) - 1) > float(np.finfo(np.float32).max):
         return None  # There, a cost that overflows is no way.
-    return path
+    return path.astype(np.int32, copy=False)
 
 
 def _ends_of_astar(

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Union
+
 import mediant
 import numpy as np
 from numpy.typing import NDArray
 
+Waypoints = Union[NDArray[np.int32], NDArray[np.float64]]
+
 blocked: NDArray[np.bool_] = np.zeros((5, 9), dtype=bool)
 grid = mediant.Grid(blocked)
-path: NDArray[np.int32] | NDArray[np.float64] | None = grid.path((0, 0), (4, 8), k=3, corners="one", points="touched", timeout=1.0)
+path: Waypoints | None = grid.path((0, 0), (4, 8), k=3, corners="one", points="touched", timeout=1.0)
 distance: float = grid.distance((0, 0), [(4, 8), (3, 3)], k=mediant.ANY)
 index: mediant.Index = grid.prepare("subgoal", k=mediant.N8, levels="contracted")
 paths: mediant.Paths = index.paths(np.array([[0, 0]]), [(4, 8)], threads=2, progress=print)
-part: list[NDArray[np.int32] | NDArray[np.float64] | None] = paths[:1]
+part: list[Waypoints | None] = paths[:1]
 numbers: NDArray[np.float64] = index.table([(0, 0)], [(4, 8)])
 status: str = index.find((0, 0), (4, 8), nearest=True).status
 shape: tuple[int, int] = grid.field((0, 0), placement="corner").shape
@@ -21,7 +25,7 @@ many: mediant.Paths = grid.paths([(0, 0)], (4, 8), k=4, max_cost=20, invalid="no
 least: float | None = grid.find((0, 0), (4, 8)).any_angle_lower_bound
 search: mediant.Search = index.search((0, 0), (4, 8), trace=True, timeout=1.0)
 answer: mediant.Answer | None = search.step(10)
-best: NDArray[np.int32] | NDArray[np.float64] = search.best
+best: Waypoints = search.best
 spaced: NDArray[np.float64] = mediant.spaced([(0, 0), (4, 8)], 0.5)
 world: mediant.World = mediant.World(0.05, (1, 2), shape=grid.shape)
 scenario: mediant.Scenario = mediant.Scenario.from_bytes(b"version 1\n")
@@ -42,11 +46,11 @@ around_walls: mediant.Grid = grid.inflated(inflation_radius=3, inscribed_radius=
 price: float = costly.find((0, 0), (4, 8)).cost
 land: mediant.Grid = mediant.Grid.from_elevation(np.ones((5, 9), "f4"), pace="langmuir", cell_size=30)
 land = mediant.Grid.from_elevation([[1, 2.5]], pace=[(-1, 2), (1, 3)], friction=[[0, 1]], cell_size=(3, 2))
-away: NDArray[np.int32] | NDArray[np.float64] | None = land.field((0, 0), heading="from", limit=9).path_to((0, 1))
+away: Waypoints | None = land.field((0, 0), heading="from", limit=9).path_to((0, 1))
 pace: str | NDArray[np.float64] | None = land.pace
 for one in paths:
     if one is not None:
-        rows: NDArray[np.int32] | NDArray[np.float64] = one[:, 0]
+        rows: Waypoints = one[:, 0]
 try:
     grid.check([(0, 0), (4, 8)])
 except mediant.BrokenPathError as error:
