@@ -66,7 +66,7 @@ impl Field {
     ///
     /// # Errors
     /// [`Error::Mismatch`] for fields of different spaces; [`Error::Walking`] for two fields over elevation
-    /// of which none is [from its sources](Space::field_from), or none to them.
+    /// of which none is [from its sources](crate::Space::field_from), or none to them.
     pub fn corridor(&self, other: &Self) -> Result<Vec<f64>, Error> {
         self.identity().check("the field", ("the other field", other.identity()))?;
         #[cfg(feature = "costs")]
