@@ -51,7 +51,7 @@ def test_between_centers_paths_bend_at_corners():
     assert field.path_from((0, 2)).tolist() == answer.path[::-1].tolist()
     around = grid.field([(0.25, 0), (1, 2)], **how)
     assert around.nearest_source((0, 0)) == (0.25, 0.0) and around.nearest_source((0, 2)) == (1, 2)
-    with pytest.raises(mediant.OptionError, match="gap"):
+    with pytest.raises(mediant.ArgumentError, match="gap"):
         grid.path((0, 0), (0, 2), corners="never", **how)
 
 

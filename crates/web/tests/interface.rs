@@ -389,12 +389,13 @@ fn what_needs_no_map() {
     };
     assert_eq!(check("astar", "{}"), Ok(None));
     assert_eq!(check("anya", r#"{"k": 3}"#), Ok(None));
+    assert_eq!(check("anya", r#"{"placement": "center"}"#), Ok(None));
     assert_eq!(
         check("jps-block", r#"{"k": 4}"#),
         Ok(Some("jps-block needs a k from 2 to 3, found 4".to_owned()))
     );
     assert!(
-        check("anya", r#"{"placement": "center"}"#)
+        check("anya", r#"{"k": 4, "placement": "center"}"#)
             .is_ok_and(|why| why.is_some_and(|why| why.starts_with("anya needs placement corner")))
     );
     assert!(check("astar2", "{}").is_err_and(|error| error.starts_with("MediantError unknown-name")));

@@ -25,7 +25,7 @@ fn mistakes_have_names_and_codes() {
         ("[-1, 0]", "[0, 0]", "{}", "MediantError start-outside"),
         ("[0, 0]", "[0, 1e300]", "{}", "MediantError goal-outside"),
         ("[]", "[0, 0]", "{}", "MediantError no-end"),
-        ("[0, 0]", "[0, 0.5]", "{}", "TypeError "),
+        ("[0, 0]", "[0, 0.5]", "{}", "MediantError between-vertices"),
         ("[0, 0]", "[0, null]", "{}", "TypeError "),
         ("[0, 0]", "[0, 0, 0]", "{}", "TypeError "),
         ("[0, 0]", "[[0, 0], 3]", "{}", "TypeError "),
@@ -50,7 +50,7 @@ fn mistakes_have_names_and_codes() {
         (r#"{"placement": "centre"}"#, "MediantError unknown-name"),
         (r#"{"placement": "center", "gap": "open"}"#, "MediantError argument"),
         (r#"{"placement": "corner", "corners": "one"}"#, "MediantError argument"),
-        (r#"{"k": "any", "placement": "center"}"#, "MediantError motion"),
+        (r#"{"k": "any", "placement": "center", "corners": "one"}"#, "MediantError argument"),
     ] {
         assert_eq!(thrown(&grid, "space", &[json(motion)]), expected, "{motion}");
     }

@@ -63,7 +63,7 @@ impl Grid {
     /// >>> grid.path((0, 0), (3, 4), k="any").tolist()
     /// [[0, 0], [1, 3], [3, 4]]
     /// >>> grid.path((0.5, 0.25), (2, 3), k="any").tolist()
-    /// [[0.5, 0.25], [1.0, 1.0], [2.0, 3.0]]
+    /// [[0.5, 0.25], [2.0, 1.0], [2.0, 3.0]]
     #[pyo3(
         signature = (start, goal, *, points = None, **how),
         text_signature = "($self, start, goal, *, points='waypoints', k=None, neighbors=None, placement=None, \
