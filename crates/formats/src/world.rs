@@ -158,7 +158,7 @@ impl WorldFrame {
         })
     }
 
-    /// How far a point of the world is to the right of the lower left corner and above it, in cells.
+    /// A point of the world in cells of the map: to the right of its lower left corner, and above it.
     fn on_map(&self, x: f64, y: f64) -> (f64, f64) {
         let (sin, cos) = self.turn();
         let (x, y) = (x - self.origin[0], y - self.origin[1]);

@@ -103,7 +103,7 @@ impl World {
         Ok(at.map_or(JsValue::UNDEFINED, |at| pair(at).into()))
     }
 
-    /// The places of vertices in the world, such as those of a path: x, y, … in meters.
+    /// The places of vertices, or points of the map, in the world: x, y, … in meters.
     #[wasm_bindgen(js_name = pointOf)]
     pub fn point_of(
         &self,

@@ -51,7 +51,7 @@ impl<T: Named> TypedValueParser for OneOf<T> {
 
 /// Reads `X,Y`.
 pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
-    const EXPECTED: &str = "expected two whole numbers, such as 3,14";
+    const EXPECTED: &str = "expected two numbers, such as 3,14";
     let parts: Vec<&str> = text.split(',').collect();
     match parts[..] {
         [x, y] => Ok(Vertex::new(parse_coordinate(x)?, parse_coordinate(y)?)),
@@ -65,7 +65,7 @@ pub(super) fn parse_vertex(text: &str) -> Result<Vertex, String> {
 pub(crate) enum Place {
     /// Two whole numbers: a vertex, or a point in the world.
     Vertex(Vertex),
-    /// Two numbers: a point in the world, in meters.
+    /// Two numbers: a point of the map, in cells, or of the world, in meters.
     Point(f64, f64),
 }
 
@@ -79,14 +79,14 @@ impl Place {
     }
 }
 
-/// Reads `X,Y`: whole numbers, or meters with a point. The error of other texts is that of a vertex.
+/// Reads `X,Y`: whole numbers, or decimals, in cells or meters. The error of other texts is that of a vertex.
 pub(crate) fn parse_place(text: &str) -> Result<Place, String> {
     let error = match parse_vertex(text) {
         Ok(at) => return Ok(Place::Vertex(at)),
         Err(error) => error,
     };
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let is_decimal = text.contains('.');
+    let is_decimal = text.contains(['.', 'e', 'E']);
     let point = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y))).filter(|_| is_decimal);
     point.map(|(x, y)| Place::Point(x, y)).ok_or(error)
 }
@@ -121,7 +121,7 @@ fn parse_coordinate(text: &str) -> Result<i32, String> {
     text.trim().parse().map_err(|error: ParseIntError| match error.kind() {
         IntErrorKind::PosOverflow => format!("`{text}` is too large: coordinates go up to {}", i32::MAX),
         IntErrorKind::NegOverflow => format!("`{text}` is too small: coordinates go down to {}", i32::MIN),
-        _ => format!("`{text}` is no whole number; write X,Y such as 3,14"),
+        _ => format!("`{text}` is no number; write X,Y such as 3,14"),
     })
 }
 
@@ -183,6 +183,15 @@ mod tests {
         assert_eq!(parse_vertex("-1, 3"), Ok(Vertex::new(-1, 3)));
         assert!(parse_vertex("3").is_err() && parse_vertex("3,").is_err() && parse_vertex("1,2,3").is_err());
         assert!(parse_vertex("99999999999,0").is_err());
+    }
+
+    #[test]
+    fn places_may_be_decimals() {
+        assert_eq!(parse_place("2.5,-1"), Ok(Place::Point(2.5, -1.0)));
+        assert_eq!(parse_place("1e3,0"), Ok(Place::Point(1000.0, 0.0)));
+        for wrong in ["nan,1", "inf,0.5", "2.5", "1.5,2,3", "e,1"] {
+            assert!(parse_place(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -105,15 +105,15 @@ fn engines_and_values_that_do_not_exist() {
 fn arguments_that_are_no_vertices() {
     check(
         "run builtin:cave --from 3 --to 4,5",
-        "invalid value '3' for '--from <X,Y>': expected two whole numbers, such as 3,14; see --help",
+        "invalid value '3' for '--from <X,Y>': expected two numbers, such as 3,14; see --help",
     );
     check(
         "run builtin:cave --from 3,y --to 4,5",
-        "invalid value '3,y' for '--from <X,Y>': `y` is no whole number; write X,Y such as 3,14; see --help",
+        "invalid value '3,y' for '--from <X,Y>': `y` is no number; write X,Y such as 3,14; see --help",
     );
     check(
         "run builtin:cave --from 1,2,3 --to 4,5",
-        "invalid value '1,2,3' for '--from <X,Y>': expected two whole numbers, such as 3,14, found 3 parts; see --help",
+        "invalid value '1,2,3' for '--from <X,Y>': expected two numbers, such as 3,14, found 3 parts; see --help",
     );
     check(
         "run builtin:cave --from 2147483648,0 --to 4,5",

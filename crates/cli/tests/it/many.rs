@@ -158,7 +158,7 @@ fn bad_ends_are_named() {
         ),
         ("--from 5,5 --to 10,3".to_owned(), 1, "error: the start (5, 5) is blocked"),
         ("--from 10,3 --to 999,0 --nearest".to_owned(), 1, "error: the goal (999, 0) is outside the map"),
-        (format!("--from-file {wrong} --to 10,3"), 2, "wrong.txt: line 3: `x` is no whole number"),
+        (format!("--from-file {wrong} --to 10,3"), 2, "wrong.txt: line 3: `x` is no number"),
         (format!("--from-file {wrong}.none --to 10,3"), 2, "wrong.txt.none: no such file"),
         ("--from 10,3 --to 10,3 --engine anya --levels 2".to_owned(), 2, "error: anya takes no levels"),
     ] {

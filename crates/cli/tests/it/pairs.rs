@@ -60,7 +60,7 @@ fn what_is_no_pair_is_told_with_its_line() {
     for (text, problem) in [
         ("1,2,3,4\n1,2,3\n", "line 2: expected x1,y1,x2,y2 such as 1,11,40,30, found 3 parts"),
         ("1,2,3,4,5\n", "line 1: expected x1,y1,x2,y2 such as 1,11,40,30, found 5 parts"),
-        ("1,2,3,4\n1,b,3,4\n", "line 2: `b` is no whole number; write X,Y such as 3,14"),
+        ("1,2,3,4\n1,b,3,4\n", "line 2: `b` is no number; write X,Y such as 3,14"),
         (
             "1,2,0.5,4\n",
             "line 1: (0.5, 4) is no vertex: write whole numbers, such as 3,14, or --k any, or meters with --world",

@@ -74,7 +74,8 @@ impl Group {
     }
 }
 
-/// How the path of a label goes on, in numbers that begin with 0; 255 has to be searched for.
+/// The label of the next subgoal that a path goes on by. Both numbers begin with 0; 255 has to be searched
+/// for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Following {
     /// Which of the next subgoal's labels leads on to the hub.
