@@ -23,7 +23,7 @@ use mediant_search::parts::Metric;
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The version of the format that [`to_bytes`](Self::to_bytes) writes.
-    pub const VERSION: u32 = 4;
+    pub const VERSION: u32 = 5;
 
     /// The graph without what follows from the map, for [`from_bytes`](Self::from_bytes).
     #[must_use]

@@ -145,12 +145,16 @@ fn over(waypoints: &mut Vec<Vertex>, vertices: &[Vertex], parts: impl Fn(Vector)
 /// part without length.
 #[inline]
 fn octile_parts(v: Vector) -> (Vector, [i32; 2]) {
-    let (x, y, sign_x, sign_y) = (v.x.abs(), v.y.abs(), v.x.signum(), v.y.signum());
+    // −1 for numbers below 0, else 0: what they are where a part has no length does not matter.
+    let (below_x, below_y) = (v.x >> 31, v.y >> 31);
+    let (sign_x, sign_y) = (below_x | 1, below_y | 1);
+    let (x, y) = (v.x.abs(), v.y.abs());
     let (shorter, is_wide) = (x.min(y), x > y);
-    let diagonal = Vector::new(sign_x * shorter, sign_y * shorter);
+    let diagonal = Vector::new((shorter ^ below_x) - below_x, (shorter ^ below_y) - below_y);
     // The moves of a quadrant in angular order: an axis move, the diagonal, the other axis move.
-    let is_axis_first = is_wide == ((v.x > 0) != (v.y > 0));
-    let along_axis = if x == y { 0 } else { if is_wide { sign_x } else { 3 * sign_y } };
+    let is_axis_first = is_wide == (below_x != below_y);
+    let along_axis = if is_wide { sign_x } else { 3 * sign_y };
+    let along_axis = if x == y { 0 } else { along_axis };
     let along_diagonal = if shorter == 0 { 0 } else { sign_x + 3 * sign_y };
     if is_axis_first {
         (v - diagonal, [along_axis, along_diagonal])

@@ -1,5 +1,5 @@
-//! Bytes in parts: a part is the number of its words and the words, `u32`, `u64` or bytes, all little endian,
-//! and zeros up to a multiple of 8 bytes.
+//! Bytes in parts: a part is the number of its words and the words, `u32` or `u64`, all little endian, and
+//! zeros up to a multiple of 8 bytes.
 
 use mediant_grid::{Interrupt, Interrupted};
 
@@ -23,10 +23,9 @@ impl Writer<'_> {
         Ok(())
     }
 
-    pub(crate) fn part8(&mut self, bytes: impl ExactSizeIterator<Item = u8>) {
-        self.bytes.extend((bytes.len() as u64).to_le_bytes());
-        self.bytes.extend(bytes);
-        self.bytes.resize(self.bytes.len().next_multiple_of(8), 0);
+    /// Pairs of words of 32 bits.
+    pub(crate) fn pairs32<T>(&mut self, of: &[T], pair: impl Fn(&T) -> [u32; 2]) -> Result<(), Interrupted> {
+        self.part32((0..2 * of.len()).map(|index| pair(&of[index / 2])[index % 2]))
     }
 
     pub(crate) fn part64(&mut self, words: &[u64]) -> Result<(), Interrupted> {
@@ -58,12 +57,15 @@ impl<'b> Reader<'b> {
         Some(words.iter().map(|&word| u32::from_le_bytes(word)))
     }
 
-    pub(crate) fn part8(&mut self) -> Option<Box<[u8]>> {
-        Some(self.take(1)?.into())
-    }
-
     pub(crate) fn part64(&mut self) -> Option<Box<[u64]>> {
         let (words, _) = self.take(size_of::<u64>())?.as_chunks();
         Some(words.iter().map(|&word| u64::from_le_bytes(word)).collect())
+    }
+
+    /// What [`pairs32`](Writer::pairs32) wrote; a word without another is left out.
+    pub(crate) fn pairs32<T>(&mut self, of: impl Fn([u32; 2]) -> T) -> Option<Box<[T]>> {
+        let (words, _) = self.take(size_of::<u32>())?.as_chunks();
+        let (pairs, _) = words.as_chunks();
+        Some(pairs.iter().map(|pair: &[[u8; 4]; 2]| of(pair.map(u32::from_le_bytes))).collect())
     }
 }

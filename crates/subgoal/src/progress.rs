@@ -24,6 +24,8 @@ pub enum Stage {
     Sight,
     /// Finding the labels of each subgoal.
     Labels,
+    /// Finding the labels of vertices, by blocks of them, which are what is counted.
+    Vertices,
 }
 
-names!(Stage: Edges => "edges", Hierarchy => "hierarchy", Sight => "sight", Labels => "labels");
+names!(Stage: Edges => "edges", Hierarchy => "hierarchy", Sight => "sight", Labels => "labels", Vertices => "vertices");

@@ -44,18 +44,16 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     pub(super) fn path_between(
         &self,
         [start, goal]: [Place; 2],
-        Meeting { hub, first, last, .. }: Meeting,
+        meeting: Meeting,
         [bends, chain]: &mut [Vec<Vertex>; 2],
     ) -> Option<Path> {
-        let subgoals = &self.geometry.subgoals;
-        let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
-        let arrival = |from: Place, id: u32| from.to(Place::of(subgoals.vertex(id)));
+        let chains = Chains::<P>::new(&self.packed, &self.geometry.subgoals, self.k);
+        let steps = chains.first_steps(meeting, |end, at| [start, goal][end].to(Place::of(at)))?;
         bends.clear();
-        bends.push(subgoals.vertex(first));
+        bends.push(steps[0].at());
         chain.clear();
-        chain.push(subgoals.vertex(last));
-        let ends = [(arrival(start, first), first), (arrival(goal, last), last)];
-        chains.visit_both(ends, hub, |at| push_waypoint(bends, at), |at| chain.push(at))?;
+        chain.push(steps[1].at());
+        chains.visit_both(steps, |at| push_waypoint(bends, at), |at| chain.push(at))?;
         // The last of the chain is the hub, at which the path is already.
         chain.iter().rev().skip(1).for_each(|&at| push_waypoint(bends, at));
         // Where the path goes straight on at its first or last subgoal, it does not turn there.

@@ -10,6 +10,7 @@ use super::{
     chain::pack,
     merge::{Label, merge},
     pack::{Packed, in_cells},
+    vertices::VertexLabels,
     whole::keep_whole,
 };
 use crate::{
@@ -81,7 +82,8 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         let (geometry, packed) = parts(space, ground, shared, contracted, most, (progress, interrupt))?;
         let Ground { metric, criterion, k, .. } = *ground;
         let identity = Identity { k: Some(k), ..space.identity() };
-        Ok(Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData })
+        let vertices = VertexLabels::default();
+        Ok(Self { identity, geometry, metric, k, criterion, packed, vertices, placement: PhantomData })
     }
 }
 

@@ -2,44 +2,35 @@
 //!
 //! A label belongs to a group, whose edge leads to the next subgoal on the way, and this subgoal has a label
 //! of the same hub. Of several it is one by which a shortest path may leave that arrives along that edge. So
-//! it depends on the label alone, and is searched for once, when the labels are made: a byte beside each
-//! label says which of the next subgoal's labels it is. Where that does not fit in a byte, a query searches.
-//! Another byte says in which of its subgoal's groups the label is: a search for it ends where a processor
-//! does not expect it to.
+//! it depends on the label alone, and is searched for once, when the labels are made: a [`PathStep`] beside
+//! each label holds the next subgoal and its label. A path is a list of such steps, each where the one before
+//! says.
 
 use std::marker::PhantomData;
 
 use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::{merge::Label, pack::Packed};
+use super::{
+    join::Meeting,
+    merge::Label,
+    pack::{Packed, PathStep},
+};
 use crate::{
     chunks::in_chunks,
     placement::{BuildContext, EdgeFinder},
     subgoals::Subgoals,
 };
 
-/// The byte of a label whose successor, or whose group, has to be searched for.
-const SEARCH: u8 = u8::MAX;
-
-/// Packs the labels of all subgoals, each with the label that comes after it; `None` if a cost is too large.
+/// Packs the labels of all subgoals, each with the first step of its path; `None` if a cost is too large.
 pub(super) fn pack<P: EdgeFinder>(
     context: BuildContext<'_, P>,
     labels: &[Vec<Label>],
     interrupt: &Interrupt,
 ) -> Result<Option<Packed>, Interrupted> {
     let Some(packed) = Packed::new(context, labels, interrupt)? else { return Ok(None) };
-    let following = Chains::<P>::new(&packed, context.subgoals, context.k).following(interrupt)?;
-    Ok(Some(packed.followed_by::<P>(following.iter().copied())))
-}
-
-/// A way to a hub.
-#[derive(Clone, Copy, Debug)]
-struct Walk {
-    /// The subgoal that it has come to.
-    id: u32,
-    /// The label that leads on.
-    label: usize,
+    let on = Chains::<P>::new(&packed, context.subgoals, context.k).labels_after(interrupt)?;
+    Ok(Some(packed.with_steps(context.subgoals, on.into_iter().flatten())))
 }
 
 /// Follows labels to their hubs.
@@ -55,97 +46,77 @@ impl<'l, P: EdgeFinder> Chains<'l, P> {
         Self { packed, subgoals, k, placement: PhantomData }
     }
 
-    /// For each label, which of the next subgoal's labels comes after it.
-    pub(super) fn following(&self, interrupt: &Interrupt) -> Result<Box<[u8]>, Interrupted> {
+    /// For each label, the next subgoal's label that comes after it, in pieces.
+    fn labels_after(&self, interrupt: &Interrupt) -> Result<Vec<Vec<u32>>, Interrupted> {
         let packed = self.packed;
-        let chunks = in_chunks(
+        in_chunks(
             self.subgoals.len(),
             || (),
             &|_| {},
             |(), ids| {
-                let mut following = Vec::new();
+                let mut after = Vec::new();
                 for id in ids {
                     interrupt.check("packing hub labels")?;
                     let at = self.subgoals.vertex(id);
                     for number in packed.groups(id * P::SIDES, P::SIDES) {
-                        let group = packed.groups[number];
-                        let arrival = at.to(self.subgoals.vertex(group.to));
-                        let first = packed.first_label(group.to);
-                        following.extend(packed.labels[packed.begin(number)..group.end()].iter().map(
-                            |&label| {
-                                let hub = packed.hub(label);
-                                let after =
-                                    if hub == group.to { None } else { self.find(group.to, arrival, hub) };
-                                after.and_then(|label| u8::try_from(label - first).ok()).unwrap_or(SEARCH)
-                            },
-                        ));
+                        let to = packed.groups[number].to;
+                        let arrival = at.to(self.subgoals.vertex(to));
+                        let own = &packed.labels[packed.begin(number)..packed.groups[number].end()];
+                        after.extend(own.iter().map(|&label| {
+                            self.label_after((arrival, to), packed.hub(label)).unwrap_or(PathStep::MISSING)
+                        }));
                     }
                 }
-                Ok(following)
+                Ok(after)
             },
-        )?;
-        Ok(chunks.concat().into())
+        )
     }
 
-    /// Visits the subgoals from two to a hub of both, without these, on paths that arrive in some directions;
-    /// `None` if the labels do not lead there. It takes turns: so a processor follows both ways at once.
+    /// The label by which a path that arrives at a subgoal leads on to a hub; [`PathStep::END`] if it is
+    /// there.
+    pub(super) fn label_after(&self, (arrival, id): (Vector, u32), hub: u32) -> Option<u32> {
+        if id == hub { Some(PathStep::END) } else { self.find(id, arrival, hub).map(|label| label as u32) }
+    }
+
+    /// The steps from both ends of a path; `arrival` is the direction from an end, by its number, to a
+    /// subgoal. `None` if the labels do not lead to the hub.
+    pub(super) fn first_steps(
+        &self,
+        Meeting { hub, first, last, steps, .. }: Meeting,
+        arrival: impl Fn(usize, Vertex) -> Vector,
+    ) -> Option<[PathStep; 2]> {
+        let step = |end: usize, id: u32| {
+            let at = self.subgoals.vertex(id);
+            let search = || Some(PathStep::new(at, self.label_after((arrival(end, at), id), hub)?));
+            steps[end].or_else(search)
+        };
+        Some([step(0, first)?, step(1, last)?])
+    }
+
+    /// Visits the subgoals that come after these two on the paths to their hub; `None` if the labels do not
+    /// lead there. It takes turns: so a processor follows both ways at once.
     pub(super) fn visit_both(
         &self,
-        [first, last]: [(Vector, u32); 2],
-        hub: u32,
+        [mut first, mut last]: [PathStep; 2],
         mut visit_first: impl FnMut(Vertex),
         mut visit_last: impl FnMut(Vertex),
     ) -> Option<()> {
-        let (mut first, mut last) = (self.begin(first, hub)?, self.begin(last, hub)?);
+        let steps = &self.packed.steps;
         // No path visits a subgoal twice: damaged labels do not lead in circles.
         for _ in 0..=self.subgoals.len() {
-            let go_on = [first.id != hub, last.id != hub];
-            if go_on == [false, false] {
+            if first.is_last() && last.is_last() {
                 return Some(());
             }
-            if go_on[0] {
-                visit_first(self.step(&mut first, hub)?);
+            if !first.is_last() {
+                first = first.next(steps)?;
+                visit_first(first.at());
             }
-            if go_on[1] {
-                visit_last(self.step(&mut last, hub)?);
+            if !last.is_last() {
+                last = last.next(steps)?;
+                visit_last(last.at());
             }
         }
         None
-    }
-
-    /// Begins the way from a subgoal, at which it arrives in a direction, to a hub.
-    fn begin(&self, (arrival, id): (Vector, u32), hub: u32) -> Option<Walk> {
-        let label = if id == hub { 0 } else { self.find(id, arrival, hub)? };
-        Some(Walk { id, label })
-    }
-
-    /// Goes on to the next subgoal.
-    #[inline(always)]
-    fn step(&self, walk: &mut Walk, hub: u32) -> Option<Vertex> {
-        let (packed, Walk { id, label }) = (self.packed, *walk);
-        // Made up labels may lead to another hub.
-        let following = *packed.following.get(label)?;
-        let next = if following.group == SEARCH {
-            self.find_group(id, label)?
-        } else {
-            let first = (packed.sides[(id * P::SIDES) as usize].first >> 4) as usize;
-            packed.groups.get(first + usize::from(following.group))?.to
-        };
-        let to = self.subgoals.vertex(next);
-        let label = match following.label {
-            _ if next == hub => label,
-            SEARCH => self.find(next, self.subgoals.vertex(id).to(to), hub)?,
-            after => packed.first_label(next) + usize::from(after),
-        };
-        *walk = Walk { id: next, label };
-        Some(to)
-    }
-
-    /// The subgoal to which the group of a label leads.
-    #[cold]
-    fn find_group(&self, id: u32, label: usize) -> Option<u32> {
-        let groups = &self.packed.groups[self.packed.groups(id * P::SIDES, P::SIDES)];
-        Some(groups.iter().find(|group| group.end() > label)?.to)
     }
 
     /// The number of the label by which the way leads on to a hub.

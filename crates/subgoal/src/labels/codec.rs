@@ -14,7 +14,7 @@ use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
 use mediant_moves::K;
 use mediant_search::parts::Metric;
 
-use super::{Geometry, HubLabels, pack::Packed};
+use super::{Geometry, HubLabels, pack::Packed, vertices::VertexLabels};
 use crate::{
     codec::{DURING, LABELS, after_identity},
     error::SubgoalError,
@@ -46,6 +46,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         let mut out = Writer { bytes, interrupt };
         self.geometry.seen.write(&mut out)?;
         self.packed.write(&mut out)?;
+        self.vertices.write(&mut out)?;
         let Writer { mut bytes, .. } = out;
         let sum = checksum(&bytes, interrupt)?;
         bytes.extend(sum.to_le_bytes());
@@ -98,10 +99,12 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         let seen = SeenIndex::read(&mut reader, P::vertices(space.grid()), slots).ok_or(wrong.clone())?;
         interrupt.check(DURING)?;
         let packed = Packed::read(&mut reader, space, &subgoals, u32::from_le_bytes(cost_bits));
-        let packed = packed.filter(|_| reader.bytes.is_empty()).ok_or(wrong)?;
+        let packed = packed.ok_or(wrong.clone())?;
+        let vertices = VertexLabels::read(&mut reader, seen.len(), (&packed, subgoals.len()));
+        let vertices = vertices.filter(|_| reader.bytes.is_empty()).ok_or(wrong)?;
         let geometry = Arc::new(Geometry { subgoals, seen });
         let criterion = P::edge_criterion(k, Hierarchy::Contracted);
-        Ok(Self { identity, geometry, metric, k, criterion, packed, placement: PhantomData })
+        Ok(Self { identity, geometry, metric, k, criterion, packed, vertices, placement: PhantomData })
     }
 }
 

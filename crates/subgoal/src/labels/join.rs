@@ -11,7 +11,8 @@ use super::{
     HubLabels,
     candidates::{Candidates, Joint, Step},
     lines::{Line, sees},
-    pack::MOST_COST_BITS,
+    pack::{MOST_COST_BITS, Packed, PathStep},
+    vertices::OfVertex,
 };
 use crate::placement::SubgoalPlacement;
 
@@ -20,14 +21,22 @@ use crate::placement::SubgoalPlacement;
 pub(super) struct Meeting {
     pub(super) cost: Cost,
     pub(super) hub: u32,
-    /// The subgoals at which the path leaves the start, and arrives at the goal.
+    /// The subgoals at which the path leaves the start, and arrives at the goal; the hub where the step is
+    /// known.
     pub(super) first: u32,
     pub(super) last: u32,
+    /// The steps to these two, where they are known.
+    pub(super) steps: [Option<PathStep>; 2],
 }
 
 impl Meeting {
     /// No path: its cost exceeds all others.
-    const NONE: Self = Self { cost: Cost::from_bits(1 << MOST_COST_BITS), hub: 0, first: 0, last: 0 };
+    const NONE: Self = Self::over(0, [0, 0], 1 << MOST_COST_BITS);
+
+    /// A path from the first to the last subgoal over a hub, and what it costs.
+    const fn over(hub: u32, [first, last]: [u32; 2], cost: u64) -> Self {
+        Self { cost: Cost::from_bits(cost), hub, first, last, steps: [None; 2] }
+    }
 }
 
 /// Scratch memory: 16 bytes a subgoal.
@@ -105,12 +114,27 @@ impl Join {
         [start, goal]: [Vertex; 2],
     ) -> Option<Meeting> {
         let Self { ends: [departures, arrivals], hubs, .. } = self;
-        departures.find(index, space, start);
-        hubs.leave(index, departures);
-        arrivals.find(index, space, goal);
-        let leading = arrivals.find_leading(index);
-        arrivals.find_bounds(index.k, goal.to(start));
-        hubs.arrive(index, arrivals, leading)
+        let [of_start, of_goal] = [start, goal].map(|end| index.labels_of(end));
+        if let Some(of_start) = of_start {
+            hubs.leave_vertex(&index.packed, of_start);
+        } else {
+            departures.find(index, space, start);
+            hubs.leave(index, departures);
+        }
+        let mut meeting = if let Some(of_goal) = of_goal {
+            hubs.arrive_at_vertex(&index.packed, of_goal)
+        } else {
+            arrivals.find(index, space, goal);
+            let leading = arrivals.find_leading(index);
+            arrivals.find_bounds(index.k, goal.to(start));
+            hubs.arrive(index, arrivals, leading)
+        }?;
+        if let Some(of_start) = of_start {
+            // The way was known by the number of its label.
+            meeting.steps[0] = of_start.step(meeting.first);
+            meeting.first = meeting.hub;
+        }
+        Some(meeting)
     }
 
     /// The same at any angle between places that need not be vertices. `sweep` tells the subgoals that a
@@ -240,6 +264,36 @@ impl Hubs {
         (best != Meeting::NONE).then_some(best)
     }
 
+    /// Writes the costs from a start to all hubs, with the numbers of the labels.
+    #[inline]
+    fn leave_vertex(&mut self, packed: &Packed, of_start: OfVertex<'_>) {
+        self.start();
+        let base = self.base();
+        for (&label, number) in of_start.labels.iter().zip(0..) {
+            if let Some(way) = self.ways.get_mut(packed.hub(label) as usize) {
+                *way = Way { cost: base + packed.cost(label), first: number };
+            }
+        }
+    }
+
+    /// The best of the paths over hubs to a goal.
+    #[inline]
+    fn arrive_at_vertex(&self, packed: &Packed, of_goal: OfVertex<'_>) -> Option<Meeting> {
+        let base = self.base();
+        let (mut least, mut found) = (1 << MOST_COST_BITS, None);
+        for (&label, number) in of_goal.labels.iter().zip(0..) {
+            let way = self.ways.get(packed.hub(label) as usize);
+            let sum = way.map_or(u64::MAX, |way| way.cost - base + packed.cost(label));
+            if sum < least {
+                (least, found) = (sum, Some(number));
+            }
+        }
+        let number = found?;
+        let hub = packed.hub(of_goal.labels[number as usize]);
+        let steps = [None, of_goal.step(number)];
+        Some(Meeting { steps, ..Meeting::over(hub, [self.ways[hub as usize].first, hub], least) })
+    }
+
     /// Writes the costs from the start to the subgoals that it is joined to.
     #[inline]
     fn join<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, ends: &Candidates<impl Joint>) {
@@ -269,12 +323,7 @@ impl Hubs {
             }
         }
         if let Some(id) = found {
-            *best = Meeting {
-                cost: Cost::from_bits(least),
-                hub: id,
-                first: self.ways[id as usize].first,
-                last: id,
-            };
+            *best = Meeting::over(id, [self.ways[id as usize].first, id], least);
         }
     }
 
@@ -309,7 +358,7 @@ impl Hubs {
         });
         if let Some(hub) = found {
             let (first, last) = (self.ways[hub as usize].first, ends.slots[i] / P::SIDES);
-            *best = Meeting { cost: Cost::from_bits(least), hub, first, last };
+            *best = Meeting::over(hub, [first, last], least);
         }
     }
 }
@@ -317,7 +366,7 @@ impl Hubs {
 impl<P: SubgoalPlacement> HubLabels<P> {
     /// Visits the hubs to which a shortest path can lead on over a slot, and the costs of these paths.
     #[inline]
-    fn visit(&self, slot: u32, step: impl Joint, mut visit: impl FnMut(u32, u64)) {
+    pub(super) fn visit(&self, slot: u32, step: impl Joint, mut visit: impl FnMut(u32, u64)) {
         let packed = &self.packed;
         let g = step.cost(self);
         let side = packed.sides[slot as usize];

@@ -81,7 +81,7 @@ fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
 
 /// By how much the cost of a path at any angle may be off: less than 1 is cut off for each of two lines and
 /// labels.
-const ROUNDED: u64 = 4;
+pub(super) const ROUNDED: u64 = 4;
 
 /// Scratch memory for distances to many goals.
 #[derive(Debug, Default)]

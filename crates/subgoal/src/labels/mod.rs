@@ -31,7 +31,12 @@
 //! # The path
 //!
 //! A group knows the next subgoal on the way to its hubs, and this subgoal has the same hub ([`whole`]). A
-//! byte beside each label says which of that subgoal's labels it is ([`chain`]).
+//! step beside each label says which of that subgoal's labels leads on ([`chain`]).
+//!
+//! # With more memory
+//!
+//! Most of a query is what it does with each of the subgoals that its ends see. Vertices can have labels of
+//! their own, of which there are as many as fit ([`vertices`]): then an end reads the list of its hubs.
 
 mod between;
 mod build;
@@ -47,15 +52,19 @@ mod planner;
 mod reader;
 #[cfg(test)]
 mod tests;
+mod vertices;
 mod whole;
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Mismatch};
+use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::K;
 use mediant_search::parts::{HasFreeSpace, Metric};
 
-use self::pack::Packed;
+use self::{
+    pack::Packed,
+    vertices::{OfVertex, VertexLabels},
+};
 pub(crate) use self::reader::LabelReader;
 pub use self::{many::Goals, planner::HubLabelSearch};
 use crate::{
@@ -87,6 +96,7 @@ pub struct HubLabels<P: SubgoalPlacement> {
     k: K,
     criterion: EdgeCriterion,
     packed: Packed,
+    vertices: VertexLabels,
     placement: std::marker::PhantomData<P>,
 }
 
@@ -120,10 +130,22 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         self.identity
     }
 
+    /// The number of labels of vertices: see [`with_vertices`](Self::with_vertices).
+    #[must_use]
+    pub const fn labels_of_vertices(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// The labels of a vertex, if it has any.
+    #[inline]
+    fn labels_of(&self, at: Vertex) -> Option<OfVertex<'_>> {
+        self.vertices.of(self.geometry.seen.columns, at)
+    }
+
     /// The memory used, in bytes. A geometry that labels for several k share counts for each.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
-        self.geometry.memory_bytes() + self.packed.memory_bytes()
+        self.geometry.memory_bytes() + self.packed.memory_bytes() + self.vertices.memory_bytes()
     }
 
     /// Checks that they are the labels of a free space.

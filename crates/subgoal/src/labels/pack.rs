@@ -74,14 +74,51 @@ impl Group {
     }
 }
 
-/// The label of the next subgoal that a path goes on by. Both numbers begin with 0; 255 has to be searched
-/// for.
+/// A step of a path to a hub.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Following {
-    /// Which of the next subgoal's labels leads on to the hub.
-    pub(super) label: u8,
-    /// In which of its subgoal's groups the label is. This is not saved.
-    pub(super) group: u8,
+pub(super) struct PathStep {
+    at: [u16; 2],
+    /// The number of the label that leads on from there; [`END`](Self::END) at the hub.
+    label: u32,
+}
+
+impl PathStep {
+    /// At the hub no label leads on.
+    pub(super) const END: u32 = u32::MAX;
+    /// The number of a label that is missing.
+    pub(super) const MISSING: u32 = u32::MAX - 1;
+
+    /// A step to a subgoal of a map, whose sides have at most 32,768 cells.
+    pub(super) const fn new(at: Vertex, label: u32) -> Self {
+        Self { at: [at.x as u16, at.y as u16], label }
+    }
+
+    /// The subgoal.
+    #[inline]
+    pub(super) const fn at(self) -> Vertex {
+        Vertex::new(self.at[0] as i32, self.at[1] as i32)
+    }
+
+    /// The step after this one among those of the labels; `None` at the hub.
+    #[inline]
+    pub(super) fn next(self, steps: &[Self]) -> Option<Self> {
+        steps.get(self.label as usize).copied()
+    }
+
+    /// This step as two words.
+    pub(super) const fn to_words(self) -> [u32; 2] {
+        [self.at[0] as u32 | (self.at[1] as u32) << 16, self.label]
+    }
+
+    /// The step that two words are.
+    pub(super) const fn from_words([at, label]: [u32; 2]) -> Self {
+        Self { at: [at as u16, (at >> 16) as u16], label }
+    }
+
+    /// Whether this is the hub.
+    pub(super) const fn is_last(self) -> bool {
+        self.label == Self::END
+    }
 }
 
 /// All labels.
@@ -93,10 +130,8 @@ pub(crate) struct Packed {
     pub(crate) groups: Box<[Group]>,
     /// The hub, and in the lowest [`cost_bits`](Self::cost_bits) the cost.
     pub(crate) labels: Box<[u64]>,
-    /// For each label, how its path goes on: see [`chain`](super::chain).
-    pub(super) following: Box<[Following]>,
-    /// By subgoal, the number of its first label.
-    pub(super) first_labels: Box<[u32]>,
+    /// For each label, the first step of its path: see [`chain`](super::chain).
+    pub(super) steps: Box<[PathStep]>,
     pub(crate) cost_bits: u32,
 }
 
@@ -113,8 +148,13 @@ fn most_cost(cost_bits: u32) -> u64 {
     (1 << cost_bits.min(MOST_COST_BITS)) - 1
 }
 
+/// Whether a label is one of so many hubs.
+fn holds(count: usize, cost_bits: u32, label: u64) -> bool {
+    ((label >> cost_bits) as usize) < count && label & ((1 << cost_bits) - 1) <= most_cost(cost_bits)
+}
+
 impl Packed {
-    /// Packs the labels of all subgoals, without what follows each of them; `None` if a cost is too large.
+    /// Packs the labels of all subgoals, without the steps; `None` if a cost is too large.
     pub(super) fn new<P: EdgeFinder>(
         context: BuildContext<'_, P>,
         labels: &[Vec<Label>],
@@ -165,8 +205,7 @@ impl Packed {
         }
         sides.push(Side::last(groups.len()));
         let (sides, groups, labels) = (sides.into(), groups.into(), packed.into());
-        let (following, first_labels) = (Box::default(), Box::default());
-        Ok(Some(Self { sides, groups, labels, following, first_labels, cost_bits }.with_first_labels::<P>()))
+        Ok(Some(Self { sides, groups, labels, steps: Box::default(), cost_bits }))
     }
 
     pub(super) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
@@ -177,30 +216,17 @@ impl Packed {
             (1..self.groups.len()).map(|group| (self.groups[group].end() - self.begin(group)) as u32),
         )?;
         out.part64(&self.labels)?;
-        out.part8(self.following.iter().map(|following| following.label));
-        Ok(())
+        out.part32(self.steps.iter().map(|step| step.label))
     }
 
-    /// Finds the first label of each subgoal.
-    fn with_first_labels<P: EdgeFinder>(self) -> Self {
-        let sides = self.sides[..self.sides.len() - 1].iter().step_by(P::SIDES as usize);
-        let first = sides.map(|side| self.begin((side.first >> 4) as usize) as u32).collect();
-        Self { first_labels: first, ..self }
-    }
-
-    /// The same labels, of which it is known which of the next subgoal's labels follows each.
-    pub(super) fn followed_by<P: EdgeFinder>(self, labels: impl Iterator<Item = u8>) -> Self {
-        let mut groups = Vec::with_capacity(self.labels.len());
-        for id in 0..self.first_labels.len() as u32 {
-            for (group, number) in self.groups(id * P::SIDES, P::SIDES).zip(0_u8..=u8::MAX) {
-                groups.resize(self.groups[group].end(), number);
-            }
-            // Labels of further groups are searched for.
-            let next = self.groups(id * P::SIDES, P::SIDES).end;
-            groups.resize(self.begin(next), u8::MAX);
-        }
-        let following = labels.zip(groups).map(|(label, group)| Following { label, group }).collect();
-        Self { following, ..self }
+    /// The same labels with the first steps of their paths, of which each leads on by one of these labels.
+    pub(super) fn with_steps(self, subgoals: &Subgoals, on: impl Iterator<Item = u32>) -> Self {
+        let groups = (1..self.groups.len()).flat_map(|group| {
+            let at = subgoals.vertex(self.groups[group].to);
+            (self.begin(group)..self.groups[group].end()).map(move |_| at)
+        });
+        let steps = groups.zip(on).map(|(at, label)| PathStep::new(at, label)).collect();
+        Self { steps, ..self }
     }
 
     /// The labels that were written for these subgoals; `None` if there are none of them.
@@ -212,13 +238,12 @@ impl Packed {
     ) -> Option<Self> {
         let count = subgoals.len();
         let (counts, to, lengths) = (reader.part32()?, reader.part32()?, reader.part32()?);
-        let (labels, following) = (reader.part64()?, reader.part8()?);
+        let (labels, on) = (reader.part64()?, reader.part32()?);
         if counts.len() != count * P::SIDES as usize
             || to.len() != lengths.len()
-            || following.len() != labels.len()
+            || on.len() != labels.len()
             || cost_bits != cost_bits_of(count)
-            || labels.iter().any(|label| (label >> cost_bits) as usize >= count)
-            || labels.iter().any(|label| label & ((1 << cost_bits) - 1) > most_cost(cost_bits))
+            || !labels.iter().all(|&label| holds(count, cost_bits, label))
         {
             return None;
         }
@@ -241,11 +266,8 @@ impl Packed {
         sides.push(Side::last(groups.len()));
         let is_whole = rest.next().is_none() && end == labels.len();
         let (sides, groups) = (sides.into(), groups.into());
-        let (none, first_labels) = (Box::default(), Box::default());
-        is_whole.then(|| {
-            let packed = Self { sides, groups, labels, following: none, first_labels, cost_bits };
-            packed.with_first_labels::<P>().followed_by::<P>(following.iter().copied())
-        })
+        let packed = Self { sides, groups, labels, steps: Box::default(), cost_bits };
+        is_whole.then(|| packed.with_steps(subgoals, on))
     }
 
     /// The numbers of the groups of the slots from `slot` on, `count` of them.
@@ -261,12 +283,6 @@ impl Packed {
         self.groups[group - 1].end()
     }
 
-    /// The number of the first label of a subgoal.
-    #[inline]
-    pub(crate) fn first_label(&self, id: u32) -> usize {
-        self.first_labels[id as usize] as usize
-    }
-
     /// The hub of a label.
     #[inline]
     pub(crate) const fn hub(&self, label: u64) -> u32 {
@@ -279,10 +295,21 @@ impl Packed {
         label & ((1 << self.cost_bits) - 1)
     }
 
+    /// Whether a label is one of so many subgoals.
+    pub(super) fn may_hold(&self, label: u64, subgoals: usize) -> bool {
+        holds(subgoals, self.cost_bits, label)
+    }
+
+    /// The label of a hub, with the cost of the path to it.
+    #[inline]
+    pub(super) const fn label(&self, hub: u32, cost: u64) -> u64 {
+        (hub as u64) << self.cost_bits | cost
+    }
+
     /// The memory used, in bytes.
     pub(crate) const fn memory_bytes(&self) -> usize {
-        let Self { sides, groups, labels, following, first_labels, cost_bits: _ } = self;
-        let of_labels = size_of_val(&**labels) + size_of_val(&**following) + size_of_val(&**first_labels);
+        let Self { sides, groups, labels, steps, cost_bits: _ } = self;
+        let of_labels = size_of_val(&**labels) + size_of_val(&**steps);
         size_of_val(&**sides) + size_of_val(&**groups) + of_labels
     }
 }

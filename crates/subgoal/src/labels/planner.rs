@@ -236,18 +236,17 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// the other is scratch memory. Returns `false` if the labels are damaged.
     fn follow(
         &self,
-        [start, goal]: [Vertex; 2],
-        Meeting { hub, first, last, .. }: Meeting,
+        ends: [Vertex; 2],
+        meeting: Meeting,
         [way, back]: &mut [Vec<Vertex>; 2],
     ) -> bool {
-        let subgoals = &self.geometry.subgoals;
-        let chains = Chains::<P>::new(&self.packed, subgoals, self.k);
-        let ends = [(start, first), (goal, last)].map(|(from, id)| (from.to(subgoals.vertex(id)), id));
+        let chains = Chains::<P>::new(&self.packed, &self.geometry.subgoals, self.k);
+        let Some(steps) = chains.first_steps(meeting, |end, at| ends[end].to(at)) else { return false };
         way.clear();
-        way.extend([start, subgoals.vertex(first)]);
+        way.extend([ends[0], steps[0].at()]);
         back.clear();
-        back.extend([goal, subgoals.vertex(last)]);
-        let is_whole = chains.visit_both(ends, hub, |at| way.push(at), |at| back.push(at)).is_some();
+        back.extend([ends[1], steps[1].at()]);
+        let is_whole = chains.visit_both(steps, |at| way.push(at), |at| back.push(at)).is_some();
         // The last is the hub, at which the path is already.
         way.extend(back.iter().rev().skip(1));
         is_whole

@@ -1,7 +1,7 @@
 //! The labels themselves: what every pair of subgoals shares, and where each label leads.
 
 use mediant_grid::{
-    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vector, Vertex, uninterrupted,
+    Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex, uninterrupted,
 };
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
@@ -9,10 +9,8 @@ use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
 use super::{
     HubLabels,
     build::whole_labels,
-    chain::Chains,
     join::Join,
     merge::Label,
-    pack::{Following, Packed},
     whole::keep_whole,
 };
 use crate::{
@@ -235,50 +233,51 @@ fn the_hubs_of_an_end_are_found_once() {
     assert!(total > 300, "{total}");
 }
 
-/// The bytes beside labels lead on as a search does, and most labels that need one have one.
-fn check_chains<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize; 3] {
+/// The steps beside labels lead to the hub, and cost no more than the label says. Returns the numbers of
+/// labels, of those whose steps cost as much as they say, and of steps.
+fn check_steps<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K) -> [usize; 3] {
     let space = FreeSpace::<P>::new(std::sync::Arc::new(grid.clone()), rule);
     let labels =
         HubLabels::within(&space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there is memory");
     let (packed, subgoals) = (&labels.packed, &labels.geometry.subgoals);
-    let search = Following { label: u8::MAX, group: u8::MAX };
-    let searched = Packed { following: vec![search; packed.labels.len()].into(), ..packed.clone() };
-    let [with, without] = [packed, &searched].map(|packed| Chains::<P>::new(packed, subgoals, k));
     let mut counts = [0; 3];
     for id in 0..subgoals.len() as u32 {
-        let range = packed.first_label(id)..packed.begin(packed.groups(id * P::SIDES, P::SIDES).end);
-        counts[2] = counts[2].max(range.len());
-        for label in range {
+        let own = packed.groups(id * P::SIDES, P::SIDES);
+        for label in packed.begin(own.start)..packed.begin(own.end) {
             let hub = packed.hub(packed.labels[label]);
-            let way = |chains: &Chains<'_, P>| {
-                let mut way = Vec::new();
-                let ends = [(Vector::ZERO, id), (Vector::ZERO, hub)];
-                chains.visit_both(ends, hub, |at| way.push(at), |_| {}).map(|()| way)
-            };
-            let found = way(&with).unwrap_or_else(|| panic!("no way from {id} to {hub}, k = {k}"));
-            assert_eq!(found.last(), Some(&subgoals.vertex(hub)));
-            assert_eq!(Some(&found), way(&without).as_ref(), "from {id} to {hub}, k = {k}");
-            counts[0] += usize::from(found.len() > 1);
-            counts[1] += usize::from(packed.following[label].label != u8::MAX);
+            let mut rest = packed.cost(packed.labels[label]) as i64;
+            let (mut at, mut step) = (subgoals.vertex(id), packed.steps[label]);
+            loop {
+                rest -= labels.metric.estimate(at.to(step.at())).to_bits() as i64;
+                at = step.at();
+                counts[2] += 1;
+                let context = format!("from {id} to {hub} at {at}, k = {k}: {rest}");
+                if step.is_last() {
+                    assert!(at == subgoals.vertex(hub) && rest > -64, "{context}");
+                    break;
+                }
+                step = step.next(&packed.steps).expect(&context);
+            }
+            counts[0] += 1;
+            counts[1] += usize::from(rest < 64);
         }
     }
     counts
 }
 
 #[test]
-fn bytes_beside_labels_lead_on_as_a_search_does() {
+fn steps_beside_labels_lead_to_their_hubs() {
     let grid = mediant_oracle::rooms(&mut mediant_oracle::Rng::new(5), 60, 60);
     let noise = mediant_oracle::noise(&mut mediant_oracle::Rng::new(5), 130, 130, 26);
     let k = |k: u32| K::Finite(FiniteK::new(k).expect("at least 2"));
-    for [on, bytes, most] in [
-        check_chains::<Corners>(&grid, DiagonalGap::Open, K::Any),
-        check_chains::<Corners>(&grid, DiagonalGap::Closed, k(5)),
-        check_chains::<Centers>(&grid, CornerRule::Never, k(3)),
-        check_chains::<Centers>(&grid, CornerRule::Never, k(2)),
+    for [labels, exact, steps] in [
+        check_steps::<Corners>(&grid, DiagonalGap::Open, K::Any),
+        check_steps::<Corners>(&grid, DiagonalGap::Closed, k(5)),
+        check_steps::<Centers>(&grid, CornerRule::Never, k(3)),
+        check_steps::<Centers>(&grid, CornerRule::Never, k(2)),
+        check_steps::<Corners>(&noise, DiagonalGap::Closed, K::Any),
     ] {
-        assert!(on > 1000 && bytes == on && most < 255, "{bytes} bytes of {on} labels, {most} of a subgoal");
+        let is_most = 100 * exact > 95 * labels;
+        assert!(labels > 1000 && is_most && steps > 2 * labels, "{steps} steps, {exact} of {labels} labels");
     }
-    // Here some subgoals have more labels than a byte can tell apart.
-    let [on, bytes, most] = check_chains::<Corners>(&noise, DiagonalGap::Closed, K::Any);
-    assert!(bytes < on && 2 * bytes > on && most > 256, "{bytes} bytes of {on} labels, {most} of a subgoal");
 }

@@ -1,6 +1,6 @@
 //! Building a seen index.
 
-use std::collections::HashMap;
+use std::{cmp::Reverse, collections::HashMap};
 
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, PlacementKind, Vertex};
 
@@ -87,6 +87,31 @@ impl SeenIndex {
         let most = blocks.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
         let (blocks, entries, masks) = (blocks.into(), entries.into(), masks.into());
         Ok(Self { columns, blocks, entries, masks, most, cells: None })
+    }
+}
+
+impl SeenIndex {
+    /// The blocks with free vertices, those first of which the fewest of the subgoals that are seen from
+    /// them are seen from each of their vertices.
+    pub(crate) fn blocks_by_scatter<P: Placement>(
+        &self,
+        space: &FreeSpace<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<u32>, Interrupted> {
+        /// So that blocks from which little is seen at all do not come first.
+        const FEW: u64 = 16;
+        let free = free_vertices(space, self.columns, self.len(), interrupt)?;
+        let vertices = |mask: u64| u64::from(mask.count_ones());
+        let scatter = |(of_block, &free): (&[Block], &u64)| {
+            let entries = &self.entries[of_block[0].first as usize..of_block[1].first as usize];
+            let joined = entries.iter().map(|entry| vertices(self.masks[usize::from(entry.mask)] & free));
+            let (seen, each) = (entries.len() as u64 + FEW, joined.sum::<u64>() + FEW * vertices(free));
+            (vertices(free) * seen << 16).checked_div(each)
+        };
+        let blocks = self.blocks.windows(2).zip(&free).map(scatter).zip(0_u32..);
+        let mut blocks: Vec<_> = blocks.filter_map(|(scatter, block)| Some((Reverse(scatter?), block))).collect();
+        blocks.sort_unstable();
+        Ok(blocks.into_iter().map(|(_, block)| block).collect())
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) use self::cells::CellIndex;
 const EMPTY: u16 = 1;
 
 /// The vertices of a block along each side: a word has a bit for each vertex.
-const SIDE: i32 = 8;
+pub(crate) const SIDE: i32 = 8;
 
 /// For each vertex, the subgoals to which the edges of a query join it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,6 +139,11 @@ impl SeenIndex {
             });
             entry.is_some_and(|entry| at == slot && self.masks[usize::from(entry.mask)] & some == some)
         })
+    }
+
+    /// The number of blocks.
+    pub(crate) const fn len(&self) -> usize {
+        self.blocks.len() - 1
     }
 
     /// The memory used, in bytes.
