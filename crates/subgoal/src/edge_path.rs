@@ -141,6 +141,28 @@ fn over(waypoints: &mut Vec<Vertex>, vertices: &[Vertex], parts: impl Fn(Vector)
     waypoints.truncate(at + 1);
 }
 
+/// Writes the path along straight lines from vertex to vertex to `waypoints`, without those at which it
+/// stands still or goes straight on. The vertices are some of a map.
+pub(crate) fn over_bends(waypoints: &mut Vec<Vertex>, vertices: &[Vertex]) {
+    let Some(&first) = vertices.first() else { return waypoints.clear() };
+    waypoints.resize(vertices.len(), first);
+    // Without branches, as above.
+    let (mut at, mut last, mut before) = (0, first, [0, 0]);
+    waypoints[0] = first;
+    for &to in &vertices[1..] {
+        // Sides of maps have at most 2¹⁵ cells.
+        let v = [i64::from(to.x) - i64::from(last.x), i64::from(to.y) - i64::from(last.y)];
+        let is_parallel = before[0] * v[1] == before[1] * v[0];
+        let goes_on = is_parallel & (before[0] * v[0] + before[1] * v[1] > 0);
+        let stands = v == [0, 0];
+        at += usize::from(!(goes_on | stands));
+        waypoints[at] = to;
+        before = if stands { before } else { v };
+        last = to;
+    }
+    waypoints.truncate(at + 1);
+}
+
 /// The first of the two parts of an optimal path over N(3), and the directions of both as numbers; 0 for a
 /// part without length.
 #[inline]

@@ -75,6 +75,7 @@ impl BuildProgress {
             Stage::Hierarchy => "hierarchy",
             Stage::Sight => "sight",
             Stage::Labels => "labels",
+            Stage::Vertices => "labels of vertices",
         };
         let bar = || {
             let bar = ProgressBar::new(total as u64).with_style(style(SUBGOALS)).with_message(doing);

@@ -101,7 +101,10 @@ impl<P: PlacementOfSpace> SubgoalIndex<P> {
             Some(bytes) => {
                 PreparedSubgoals::from_bytes_interruptible(space, motion.k, bytes, source.interrupt)?
             }
-            None => prepared(own, other, space, source, beside)?,
+            None => {
+                let prepared = prepared(own, other, space, source, beside)?;
+                with_vertices(prepared, own.memory, space, source)?
+            }
         };
         let free = Arc::clone(space);
         let kept = match prepared {
@@ -382,6 +385,21 @@ fn prepared<P: SubgoalPlacement>(
         }
         (None, None) => PreparedSubgoals::Labels(HubLabels::within(space, k, most, &progress, interrupt)?),
         (None, Some(labels)) => PreparedSubgoals::Labels(labels.for_k(space, k, most, &progress, interrupt)?),
+    })
+}
+
+/// Hub labels with labels of vertices besides, for which they use the memory that was named.
+fn with_vertices<P: SubgoalPlacement>(
+    prepared: PreparedSubgoals<P>,
+    memory: Option<Memory>,
+    space: &FreeSpace<P>,
+    Source { progress, interrupt, .. }: Source<'_>,
+) -> Result<PreparedSubgoals<P>, Error> {
+    Ok(match (prepared, memory) {
+        (PreparedSubgoals::Labels(labels), Some(memory)) => {
+            PreparedSubgoals::Labels(labels.with_vertices(space, memory.as_usize(), &progress, interrupt)?)
+        }
+        (prepared, _) => prepared,
     })
 }
 

@@ -3,8 +3,9 @@
 //! First the [`Identity`](mediant_grid::Identity), 32 bytes, and the code of labels, a `u32`; then the parts,
 //! and a checksum of all that, 8 bytes. The [parts](crate::parts) are: of the [seen index](crate::seen) its
 //! blocks, entries and masks; the number of groups of each slot; of each group its subgoal and the number of
-//! its labels; the labels, which hold the costs; the byte beside each [label](super::chain). Data that follow
-//! from the map and its subgoals are not stored.
+//! its labels; the labels, which hold the costs; for each the label that leads on ([`chain`](super::chain));
+//! and the [labels of vertices](super::vertices). Data that follow from the map and its subgoals are not
+//! stored.
 //!
 //! Reading them takes about as long as copying them.
 
@@ -100,7 +101,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         interrupt.check(DURING)?;
         let packed = Packed::read(&mut reader, space, &subgoals, u32::from_le_bytes(cost_bits));
         let packed = packed.ok_or(wrong.clone())?;
-        let vertices = VertexLabels::read(&mut reader, seen.len(), (&packed, subgoals.len()));
+        let vertices = VertexLabels::read(&mut reader, seen.len(), (&packed, &subgoals));
         let vertices = vertices.filter(|_| reader.bytes.is_empty()).ok_or(wrong)?;
         let geometry = Arc::new(Geometry { subgoals, seen });
         let criterion = P::edge_criterion(k, Hierarchy::Contracted);

@@ -115,6 +115,9 @@ impl Join {
     ) -> Option<Meeting> {
         let Self { ends: [departures, arrivals], hubs, .. } = self;
         let [of_start, of_goal] = [start, goal].map(|end| index.labels_of(end));
+        if let (Some(a), Some(b)) = (of_start, of_goal) {
+            std::hint::black_box(a.touch() ^ b.touch());
+        }
         if let Some(of_start) = of_start {
             hubs.leave_vertex(&index.packed, of_start);
         } else {
@@ -269,27 +272,30 @@ impl Hubs {
     fn leave_vertex(&mut self, packed: &Packed, of_start: OfVertex<'_>) {
         self.start();
         let base = self.base();
-        for (&label, number) in of_start.labels.iter().zip(0..) {
+        let mut number = 0;
+        of_start.labels().for_each(|label| {
             if let Some(way) = self.ways.get_mut(packed.hub(label) as usize) {
                 *way = Way { cost: base + packed.cost(label), first: number };
             }
-        }
+            number += 1;
+        });
     }
 
     /// The best of the paths over hubs to a goal.
     #[inline]
     fn arrive_at_vertex(&self, packed: &Packed, of_goal: OfVertex<'_>) -> Option<Meeting> {
         let base = self.base();
-        let (mut least, mut found) = (1 << MOST_COST_BITS, None);
-        for (&label, number) in of_goal.labels.iter().zip(0..) {
-            let way = self.ways.get(packed.hub(label) as usize);
+        let (mut least, mut found, mut number) = (1 << MOST_COST_BITS, None, 0);
+        of_goal.labels().for_each(|label| {
+            let hub = packed.hub(label);
+            let way = self.ways.get(hub as usize);
             let sum = way.map_or(u64::MAX, |way| way.cost - base + packed.cost(label));
             if sum < least {
-                (least, found) = (sum, Some(number));
+                (least, found) = (sum, Some((hub, number)));
             }
-        }
-        let number = found?;
-        let hub = packed.hub(of_goal.labels[number as usize]);
+            number += 1;
+        });
+        let (hub, number) = found?;
         let steps = [None, of_goal.step(number)];
         Some(Meeting { steps, ..Meeting::over(hub, [self.ways[hub as usize].first, hub], least) })
     }

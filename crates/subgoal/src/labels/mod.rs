@@ -61,12 +61,12 @@ use mediant_grid::{Identity, Mismatch, Vertex};
 use mediant_moves::K;
 use mediant_search::parts::{HasFreeSpace, Metric};
 
+pub(crate) use self::reader::LabelReader;
+pub use self::{many::Goals, planner::HubLabelSearch};
 use self::{
     pack::Packed,
     vertices::{OfVertex, VertexLabels},
 };
-pub(crate) use self::reader::LabelReader;
-pub use self::{many::Goals, planner::HubLabelSearch};
 use crate::{
     placement::{EdgeCriterion, SubgoalPlacement},
     seen::SeenIndex,
@@ -132,7 +132,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
 
     /// The number of labels of vertices: see [`with_vertices`](Self::with_vertices).
     #[must_use]
-    pub const fn labels_of_vertices(&self) -> usize {
+    pub fn labels_of_vertices(&self) -> usize {
         self.vertices.len()
     }
 

@@ -105,14 +105,14 @@ impl PathStep {
         steps.get(self.label as usize).copied()
     }
 
-    /// This step as two words.
-    pub(super) const fn to_words(self) -> [u32; 2] {
-        [self.at[0] as u32 | (self.at[1] as u32) << 16, self.label]
+    /// This step as a word.
+    pub(super) const fn to_word(self) -> u64 {
+        self.at[0] as u64 | (self.at[1] as u64) << 16 | (self.label as u64) << 32
     }
 
-    /// The step that two words are.
-    pub(super) const fn from_words([at, label]: [u32; 2]) -> Self {
-        Self { at: [at as u16, (at >> 16) as u16], label }
+    /// The step that a word is.
+    pub(super) const fn from_word(word: u64) -> Self {
+        Self { at: [word as u16, (word >> 16) as u16], label: (word >> 32) as u32 }
     }
 
     /// Whether this is the hub.

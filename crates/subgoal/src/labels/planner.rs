@@ -17,7 +17,7 @@ use super::{
 };
 use crate::{
     corners::PointSight,
-    edge_path::{direct_path, extend, over_elbows, sees_between},
+    edge_path::{direct_path, extend, over_bends, over_elbows, sees_between},
     placement::{EdgeCriterion, SubgoalPlacement},
 };
 
@@ -222,7 +222,8 @@ where
             K::Finite(k) if labels.criterion == EdgeCriterion::Direct => {
                 over_elbows(waypoints, k == FiniteK::N8, way);
             }
-            _ => {
+            K::Any => over_bends(waypoints, way),
+            K::Finite(_) => {
                 waypoints.clear();
                 way.iter().for_each(|&at| extend(waypoints, space, (k, labels.criterion), at));
             }
@@ -234,12 +235,7 @@ where
 impl<P: SubgoalPlacement> HubLabels<P> {
     /// Writes start, goal and the subgoals of the path over a meeting point between them to the first list;
     /// the other is scratch memory. Returns `false` if the labels are damaged.
-    fn follow(
-        &self,
-        ends: [Vertex; 2],
-        meeting: Meeting,
-        [way, back]: &mut [Vec<Vertex>; 2],
-    ) -> bool {
+    fn follow(&self, ends: [Vertex; 2], meeting: Meeting, [way, back]: &mut [Vec<Vertex>; 2]) -> bool {
         let chains = Chains::<P>::new(&self.packed, &self.geometry.subgoals, self.k);
         let Some(steps) = chains.first_steps(meeting, |end, at| ends[end].to(at)) else { return false };
         way.clear();

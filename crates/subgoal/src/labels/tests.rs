@@ -6,13 +6,7 @@ use mediant_grid::{
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
 
-use super::{
-    HubLabels,
-    build::whole_labels,
-    join::Join,
-    merge::Label,
-    whole::keep_whole,
-};
+use super::{HubLabels, build::whole_labels, join::Join, merge::Label, whole::keep_whole};
 use crate::{
     arc::NONE,
     build::Ground,

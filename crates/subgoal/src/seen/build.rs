@@ -109,7 +109,8 @@ impl SeenIndex {
             (vertices(free) * seen << 16).checked_div(each)
         };
         let blocks = self.blocks.windows(2).zip(&free).map(scatter).zip(0_u32..);
-        let mut blocks: Vec<_> = blocks.filter_map(|(scatter, block)| Some((Reverse(scatter?), block))).collect();
+        let mut blocks: Vec<_> =
+            blocks.filter_map(|(scatter, block)| Some((Reverse(scatter?), block))).collect();
         blocks.sort_unstable();
         Ok(blocks.into_iter().map(|(_, block)| block).collect())
     }

@@ -54,6 +54,20 @@ pub(crate) fn labels<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K) -> HubLabe
     HubLabels::within(space, k, usize::MAX, &|_| {}, &Interrupt::NEVER).expect("there are labels for this k")
 }
 
+/// The same labels with labels of vertices besides, for half of the vertices or for all.
+pub(crate) fn with_vertices<P: SubgoalPlacement>(
+    labels: &HubLabels<P>,
+    space: &FreeSpace<P>,
+    is_half: bool,
+) -> HubLabels<P> {
+    let within = |most: usize| {
+        let labels = labels.clone().with_vertices(space, most, &|_| {}, &Interrupt::NEVER);
+        labels.expect("they are of this space")
+    };
+    let (all, without) = (within(usize::MAX), labels.memory_bytes());
+    if is_half { within(without + (all.memory_bytes() - without) / 2) } else { all }
+}
+
 /// The work of a query, by an engine that prepares nothing.
 pub(crate) type Work<'i> = Box<dyn FnMut(Ends) -> Result<Option<Counters>, Interrupted> + 'i>;
 

@@ -6,44 +6,51 @@ use super::{BLOCK, NONE, Span, VertexLabels};
 use crate::{
     labels::pack::{Packed, PathStep},
     parts::{Reader, Writer},
+    subgoals::Subgoals,
 };
 
 impl VertexLabels {
     pub(in crate::labels) fn write(&self, out: &mut Writer<'_>) -> Result<(), Interrupted> {
-        let Self { blocks, spans, labels, steps } = self;
+        let Self { blocks, spans, words } = self;
         out.part32(blocks.iter().copied())?;
-        out.pairs32(spans, |span| [span.label, span.step])?;
-        out.part64(labels)?;
-        out.pairs32(steps, |step| step.to_words())
+        out.pairs32(spans, |span| [span.word, span.leading])?;
+        out.part64(words)
     }
 
-    /// The labels that were written for a map with so many blocks of vertices, these labels of subgoals, and
-    /// so many of these; `None` if they are none of such a map.
+    /// The labels that were written for a map with so many blocks of vertices, and these labels of these
+    /// subgoals; `None` if they are none of such a map.
     pub(in crate::labels) fn read(
         reader: &mut Reader<'_>,
         count: usize,
-        (packed, subgoals): (&Packed, usize),
+        (packed, subgoals): (&Packed, &Subgoals),
     ) -> Option<Self> {
         let blocks: Box<[u32]> = reader.part32()?.collect();
-        let spans = reader.pairs32(|[label, step]| Span { label, step })?;
-        let labels = reader.part64()?;
-        let steps = reader.pairs32(PathStep::from_words)?;
+        let spans = reader.pairs32(|[word, leading]| Span { word, leading })?;
+        let read = Self { blocks, spans, words: reader.part64()? };
+        let Self { blocks, spans, words } = &read;
         let vertices = spans.len().saturating_sub(1);
-        let fits = if blocks.is_empty() {
-            spans.is_empty() && labels.is_empty() && steps.is_empty()
-        } else {
-            let begins = |&block: &u32| {
-                block == NONE || (block as usize).is_multiple_of(BLOCK) && (block as usize) < vertices
-            };
-            let (first, last) = (spans.first()?, spans.last()?);
-            blocks.len() == count
-                && vertices.is_multiple_of(BLOCK)
-                && blocks.iter().all(begins)
-                && *first == Span::default()
-                && [last.label as usize, last.step as usize] == [labels.len(), steps.len()]
-                && spans.is_sorted_by(|a, b| a.label <= b.label && a.step <= b.step)
-                && labels.iter().all(|&label| packed.may_hold(label, subgoals))
+        let begins = |&block: &u32| {
+            block == NONE || (block as usize).is_multiple_of(BLOCK) && (block as usize) < vertices
         };
-        fits.then_some(Self { blocks, spans, labels, steps })
+        let is_label = |label: &u64| packed.may_hold(*label, subgoals.len());
+        let is_step = |&word: &u64| subgoals.id(PathStep::from_word(word).at()).is_some();
+        let holds = |ends: &[Span]| {
+            let own = words.get(ends[0].word as usize..ends[1].word as usize)?;
+            let (pairs, seen) = own.split_at_checked((ends[0].leading as usize).checked_mul(2)?)?;
+            let (pairs, _) = pairs.as_chunks();
+            let fits = pairs.iter().all(|[label, step]| is_label(label) && is_step(step));
+            Some(fits && seen.iter().all(is_label))
+        };
+        let is_whole = match (spans.first(), spans.last()) {
+            (Some(first), Some(last)) => {
+                blocks.len() == count && (first.word, last.word as usize) == (0, words.len())
+            }
+            _ => blocks.is_empty() && words.is_empty(),
+        };
+        let fits = is_whole
+            && vertices.is_multiple_of(BLOCK)
+            && blocks.iter().all(begins)
+            && spans.windows(2).all(|ends| holds(ends) == Some(true));
+        fits.then_some(read)
     }
 }

@@ -85,22 +85,14 @@ fn find<P: SubgoalPlacement>(
 /// The labels of the vertices of a block, or of several.
 #[derive(Default)]
 struct Labels {
-    /// By vertex, where its labels begin.
+    /// By vertex.
     spans: Vec<Span>,
-    labels: Vec<u64>,
-    steps: Vec<PathStep>,
+    words: Vec<u64>,
 }
 
 impl Labels {
     fn memory_bytes(&self) -> usize {
-        let Self { spans, labels, steps } = self;
-        size_of_val(&**spans) + size_of_val(&**labels) + size_of_val(&**steps)
-    }
-
-    /// Where the next labels begin; `None` if there are too many.
-    fn end(&self) -> Option<Span> {
-        let [label, step] = [self.labels.len(), self.steps.len()].map(u32::try_from);
-        label.ok().zip(step.ok()).map(|(label, step)| Span { label, step })
+        size_of_val(&*self.spans) + size_of_val(&*self.words)
     }
 }
 
@@ -121,26 +113,26 @@ impl Found {
     /// Adds the labels of a block; `false` if they do not fit.
     fn add(&mut self, block: u32, own: &Labels) -> bool {
         let Self { rest, blocks, all } = self;
-        let left = rest.checked_sub(own.memory_bytes());
-        let Some((left, begin)) = left.zip(all.end()) else { return false };
-        // A block has less than are left from here on.
-        if begin.label > NONE / 2 {
+        let begin = all.words.len();
+        let Some(left) = rest.checked_sub(own.memory_bytes()) else { return false };
+        if begin + own.words.len() >= u32::MAX as usize {
             return false;
         }
         blocks[block as usize] = all.spans.len() as u32;
-        all.spans.extend(own.spans.iter().map(|span| span.after(begin)));
-        all.labels.extend(&own.labels);
-        all.steps.extend(&own.steps);
+        let moved = |span: &Span| Span { word: span.word + begin as u32, ..*span };
+        all.spans.extend(own.spans.iter().map(moved));
+        all.words.extend(&own.words);
         *rest = left;
         true
     }
 
     fn finish(self) -> VertexLabels {
-        let Self { blocks, mut all, .. } = self;
-        let Some(end) = all.end().filter(|_| !all.spans.is_empty()) else { return VertexLabels::default() };
-        all.spans.push(end);
-        let Labels { spans, labels, steps } = all;
-        VertexLabels { blocks, spans: spans.into(), labels: labels.into(), steps: steps.into() }
+        let Self { blocks, all: Labels { mut spans, words }, .. } = self;
+        if spans.is_empty() {
+            return VertexLabels::default();
+        }
+        spans.push(Span { word: words.len() as u32, leading: 0 });
+        VertexLabels { blocks, spans: spans.into(), words: words.into() }
     }
 }
 
@@ -183,12 +175,15 @@ impl Finder {
         let columns = index.geometry.seen.columns;
         let [x, y] = [block % columns, block / columns].map(|corner| corner as i32 * SIDE);
         for number in 0..BLOCK as i32 {
-            found.spans.extend(found.end());
+            let word = found.words.len() as u32;
             let at = Vertex::new(x + number % SIDE, y + number / SIDE);
-            if space.is_free(at) {
+            let leading = if space.is_free(at) {
                 self.find_ways(index, space, at);
-                self.take(index, at, &mut found);
-            }
+                self.take(index, at, &mut found.words)
+            } else {
+                0
+            };
+            found.spans.push(Span { word, leading });
         }
         found
     }
@@ -217,8 +212,9 @@ impl Finder {
         }
     }
 
-    /// Writes the labels of a vertex whose ways are known, and forgets these.
-    fn take<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, at: Vertex, found: &mut Labels) {
+    /// Writes the labels of a vertex whose ways are known, and forgets these. Returns how many have a first
+    /// step.
+    fn take<P: SubgoalPlacement>(&mut self, index: &HubLabels<P>, at: Vertex, words: &mut Vec<u64>) -> u32 {
         let Self { ways, hubs, .. } = self;
         let (packed, subgoals) = (&index.packed, &index.geometry.subgoals);
         let way = |hub: u32| ways[hub as usize];
@@ -229,26 +225,29 @@ impl Finder {
             labels.iter().any(|&label| way(packed.hub(label)).cost + packed.cost(label) + ROUNDED < most)
         };
         let is_seen = |hub: u32| way(hub).first == hub;
-        let chains = Chains::<P>::new(packed, subgoals, index.k);
-        let first_step = |hub: u32| {
-            let (first, at_first) = (way(hub).first, subgoals.vertex(way(hub).first));
-            Some(PathStep::new(at_first, chains.label_after((at.to(at_first), first), hub)?))
-        };
         let mut kept: Vec<_> = hubs
             .iter()
             .filter(|&&hub| is_seen(hub) || !is_outdone(hub))
             .map(|&hub| (is_seen(hub), way(hub).cost, hub))
             .collect();
         kept.sort_unstable();
+        let chains = Chains::<P>::new(packed, subgoals, index.k);
+        let mut leading = 0;
         for (is_seen, cost, hub) in kept {
-            let step = first_step(hub).filter(|_| !is_seen);
-            if is_seen || step.is_some() {
-                found.labels.push(packed.label(hub, cost));
-                found.steps.extend(step);
+            let label = packed.label(hub, cost);
+            if is_seen {
+                words.push(label);
+                continue;
+            }
+            let (first, at_first) = (way(hub).first, subgoals.vertex(way(hub).first));
+            if let Some(on) = chains.label_after((at.to(at_first), first), hub) {
+                words.extend([label, PathStep::new(at_first, on).to_word()]);
+                leading += 1;
             }
         }
         for hub in hubs.drain(..) {
             ways[hub as usize].cost = NEVER;
         }
+        leading
     }
 }

@@ -30,11 +30,10 @@ pub(super) struct VertexLabels {
     blocks: Box<[u32]>,
     /// By vertex of the blocks that have labels, and one more that ends the last.
     spans: Box<[Span]>,
-    /// The hub, and in the lowest bits the cost, as those of subgoals. First those whose paths lead on over
-    /// another subgoal, then the subgoals that the vertex sees; both from the nearest hub on.
-    labels: Box<[u64]>,
-    /// The first steps of the paths of the first ones.
-    steps: Box<[PathStep]>,
+    /// The labels, as those of subgoals, from the nearest hub on: first those whose paths lead on over another
+    /// subgoal, each with the [word](PathStep::to_word) of its first step, then the subgoals that the vertex
+    /// sees. What a query reads lies together.
+    words: Box<[u64]>,
 }
 
 /// The number of a block without labels.
@@ -43,28 +42,37 @@ const NONE: u32 = u32::MAX;
 /// Where the labels of a vertex begin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Span {
-    label: u32,
-    step: u32,
-}
-
-impl Span {
-    /// The span of labels that are moved behind others.
-    const fn after(self, begin: Self) -> Self {
-        Self { label: self.label + begin.label, step: self.step + begin.step }
-    }
+    word: u32,
+    /// The number of labels with a first step.
+    leading: u32,
 }
 
 /// The labels of one vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfVertex<'l> {
-    pub(super) labels: &'l [u64],
-    steps: &'l [PathStep],
+    /// Those with a first step.
+    leading: &'l [[u64; 2]],
+    seen: &'l [u64],
 }
 
-impl OfVertex<'_> {
+impl<'l> OfVertex<'l> {
+    /// The labels; their order numbers them.
+    #[inline]
+    pub(super) fn labels(self) -> impl Iterator<Item = u64> + 'l {
+        self.leading.iter().map(|[label, _]| *label).chain(self.seen.iter().copied())
+    }
+
+    /// Reads a word of each line of memory.
+    #[inline]
+    pub(super) fn touch(self) -> u64 {
+        let [of_leading, of_seen] = [self.leading.as_flattened(), self.seen];
+        of_leading.iter().step_by(8).chain(of_seen.iter().step_by(8)).fold(0, |sum, word| sum ^ word)
+    }
+
     /// The first step of the path of a label, by its number; `None` if the vertex sees the hub.
-    pub(super) fn step(self, label: u32) -> Option<PathStep> {
-        self.steps.get(label as usize).copied()
+    #[inline]
+    pub(super) fn step(self, number: u32) -> Option<PathStep> {
+        self.leading.get(number as usize).map(|[_, step]| PathStep::from_word(*step))
     }
 }
 
@@ -75,19 +83,21 @@ impl VertexLabels {
         let block = (at.y / SIDE) as u32 * columns + (at.x / SIDE) as u32;
         let first = *self.blocks.get(block as usize)?;
         let vertex = first as usize + ((at.y % SIDE) * SIDE + at.x % SIDE) as usize;
-        let &[span, end] = self.spans.get(vertex..)?.first_chunk()?;
-        let labels = self.labels.get(span.label as usize..end.label as usize)?;
-        Some(OfVertex { labels, steps: self.steps.get(span.step as usize..end.step as usize)? })
+        let &[Span { word, leading }, end] = self.spans.get(vertex..)?.first_chunk()?;
+        let words = self.words.get(word as usize..end.word as usize)?;
+        let (pairs, seen) = words.split_at_checked(2 * leading as usize)?;
+        Some(OfVertex { leading: pairs.as_chunks().0, seen })
     }
 
     /// The number of labels.
-    pub(super) const fn len(&self) -> usize {
-        self.labels.len()
+    pub(super) fn len(&self) -> usize {
+        let leading = self.spans.iter().map(|span| span.leading as usize);
+        self.words.len() - leading.sum::<usize>()
     }
 
     /// The memory used, in bytes.
     pub(super) const fn memory_bytes(&self) -> usize {
-        let Self { blocks, spans, labels, steps } = self;
-        size_of_val(&**blocks) + size_of_val(&**spans) + size_of_val(&**labels) + size_of_val(&**steps)
+        let Self { blocks, spans, words } = self;
+        size_of_val(&**blocks) + size_of_val(&**spans) + size_of_val(&**words)
     }
 }

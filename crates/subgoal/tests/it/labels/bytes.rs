@@ -11,7 +11,7 @@ use mediant_subgoal::{
     Hierarchy, HubLabelSearch, HubLabels, SubgoalAStar, SubgoalError, SubgoalGraph, SubgoalPlacement,
 };
 
-use crate::common::{GAPS, graph, identity, k, labels, space, with_checksum};
+use crate::common::{GAPS, graph, identity, k, labels, space, with_checksum, with_vertices};
 
 /// The answers of a planner, however wrong its labels are.
 type Answers = Vec<[Result<Option<u64>, QueryError>; 2]>;
@@ -51,11 +51,15 @@ fn read<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, bytes: &[u8]) -> Result
 fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> usize {
     let space = space::<P>(grid, rule);
     let made = labels(&space, k);
+    let made = if seed % 3 == 0 { made } else { with_vertices(&made, &space, seed % 3 == 1) };
     let bytes = made.to_bytes();
     let loaded = read(&space, k, &bytes).unwrap_or_else(|error| panic!("{error}: k = {k}, seed {seed}"));
     let case = || format!("k = {k}, {}, seed {seed}", space.rules());
     assert_eq!(loaded.to_bytes(), bytes, "{}", case());
-    let facts = |of: &HubLabels<P>| (of.k(), of.subgoals(), of.labels(), of.memory_bytes(), of.identity());
+    let facts = |of: &HubLabels<P>| {
+        let counts = [of.subgoals(), of.labels(), of.labels_of_vertices(), of.memory_bytes()];
+        (of.k(), counts, of.identity())
+    };
     assert_eq!(facts(&loaded), facts(&made), "{}", case());
     assert_eq!(made.identity(), identity(&space, k), "{}", case());
     let found = answers(&space, &made);
@@ -130,7 +134,8 @@ fn every_flipped_bit_is_found() {
 /// Where the parts of the bytes are: their beginning, the width of their words and the number of words.
 fn parts(bytes: &[u8]) -> Vec<(usize, usize, usize)> {
     let (mut at, mut parts) = (Identity::BYTES + 8, Vec::new());
-    for width in [4, 4, 8, 4, 8, 4, 4, 4, 8, 1] {
+    // Of the seen index five, of the labels of subgoals five, of those of vertices four.
+    for width in [4, 4, 8, 4, 8, 4, 4, 4, 8, 4, 4, 4, 8, 4] {
         let count = u64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes")) as usize;
         parts.push((at + 8, width, count));
         at += 8 + (width * count).next_multiple_of(8);
@@ -142,7 +147,7 @@ fn parts(bytes: &[u8]) -> Vec<(usize, usize, usize)> {
 /// Words and counts changed by seed, with a checksum that fits.
 fn fuzz<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seeds: std::ops::Range<u64>) {
     let space = space::<P>(grid, rule);
-    let bytes = labels(&space, k).to_bytes();
+    let bytes = with_vertices(&labels(&space, k), &space, true).to_bytes();
     let parts = parts(&bytes);
     let body = &bytes[..bytes.len() - 8];
     let of = |seed: u64| {
@@ -151,10 +156,6 @@ fn fuzz<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seeds: std::ops::
         for _ in 0..1 + rng.below(5) {
             let (begin, width, count) = parts[rng.below(parts.len() as u32) as usize];
             let is_count = count == 0 || rng.chance(8);
-            if width == 1 && !is_count {
-                changed[begin + rng.below(count as u32) as usize] = rng.bits() as u8;
-                continue;
-            }
             let at = if is_count { begin - 8 } else { begin + width * rng.below(count as u32) as usize };
             let known = u32::from_le_bytes(changed[at..at + 4].try_into().expect("four bytes"));
             let value = match rng.below(8) {
@@ -250,12 +251,14 @@ fn labels_are_no_graph_and_a_graph_is_no_labels() {
 #[test]
 fn labels_of_no_subgoal_are_refused() {
     let space = space::<Corners>(&rooms(), DiagonalGap::Open);
-    let made = labels(&space, K::Any);
+    let made = with_vertices(&labels(&space, K::Any), &space, false);
     let bytes = made.to_bytes();
-    let (begin, width, count) = parts(&bytes)[8];
     let bits = 64 - (made.subgoals() as u64 - 1).leading_zeros();
     for wrong in [u64::MAX, (made.subgoals() as u64) << (64 - bits), 1 << (64 - bits - 1)] {
-        for label in 0..count {
+        let all = [8, 12].map(|part| parts(&bytes)[part]);
+        for (begin, width, label) in
+            all.into_iter().flat_map(|(begin, width, count)| (0..count).map(move |i| (begin, width, i)))
+        {
             let mut changed = bytes[..bytes.len() - 8].to_vec();
             changed[begin + width * label..][..8].copy_from_slice(&wrong.to_le_bytes());
             let error = read(&space, K::Any, &with_checksum(changed)).map(|_| ()).expect_err("it is wrong");

@@ -9,7 +9,7 @@ use mediant_search::{Answer, Ends, Guarantee, Planner};
 use mediant_subgoal::{HubLabelSearch, HubLabels, SubgoalPlacement};
 
 use crate::{
-    common::{GAPS, all_ks, k, labels, length, space},
+    common::{GAPS, all_ks, k, labels, length, space, with_vertices},
     exact::{ends, rules_of},
 };
 
@@ -140,6 +140,20 @@ pub(super) fn is_equal(k: K, a: Cost, b: Cost) -> bool {
     a == b || k == K::Any && (x - y).abs() <= 1e-9 * x.max(y)
 }
 
+/// Labels of subgoals alone, and with labels of vertices besides.
+fn check_with_and_without<P: SubgoalPlacement>(
+    space: &FreeSpace<P>,
+    k: K,
+    queries: &[Expected],
+    seed: u64,
+) -> Tally {
+    let labels = labels(space, k);
+    let with = with_vertices(&labels, space, seed % 2 == 1);
+    let tally = Suite { space, labels, seed }.check(queries);
+    assert_eq!(Suite { space, labels: with, seed }.check(queries), tally, "seed {seed}");
+    tally
+}
+
 /// Every pair of some vertices of a map.
 fn expected(ends: &[Vertex], path: impl Fn(Vertex) -> Vec<Option<Vec<Vertex>>>) -> Vec<Expected> {
     let of = |&start: &Vertex| {
@@ -161,7 +175,7 @@ fn check_corners(seed: u64) -> Tally {
                 let costs = over.costs_from(start);
                 ends.iter().map(|&goal| costs.path_to(goal)).collect()
             });
-            tallies.push(Suite { space: &space, labels: labels(&space, k), seed }.check(&expected));
+            tallies.push(check_with_and_without(&space, k, &expected, seed));
         }
     }
     sum(tallies)
@@ -186,7 +200,7 @@ fn check_explicitly<P: SubgoalPlacement>(grid: &Grid, rule: P::Rule, k: K, most:
         let costs = explicit.costs_from(start);
         ends.iter().map(|&goal| costs.path_to(goal)).collect()
     });
-    Suite { space: &space, labels: labels(&space, k), seed }.check(&expected)
+    check_with_and_without(&space, k, &expected, seed)
 }
 
 fn check_rules(grid: &Grid, rules: Rules, k: K, most: usize, seed: u64) -> Tally {

@@ -5,3 +5,4 @@ mod exact;
 mod far;
 mod many;
 mod shared;
+mod vertices;
