@@ -106,7 +106,7 @@ impl SeenIndex {
             let entries = &self.entries[of_block[0].first as usize..of_block[1].first as usize];
             let joined = entries.iter().map(|entry| vertices(self.masks[usize::from(entry.mask)] & free));
             let (seen, each) = (entries.len() as u64 + FEW, joined.sum::<u64>() + FEW * vertices(free));
-            (vertices(free) * seen << 16).checked_div(each)
+            ((vertices(free) * seen) << 16).checked_div(each)
         };
         let blocks = self.blocks.windows(2).zip(&free).map(scatter).zip(0_u32..);
         let mut blocks: Vec<_> =

@@ -51,7 +51,10 @@ fn read<P: SubgoalPlacement>(space: &FreeSpace<P>, k: K, bytes: &[u8]) -> Result
 fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> usize {
     let space = space::<P>(grid, rule);
     let made = labels(&space, k);
-    let made = if seed % 3 == 0 { made } else { with_vertices(&made, &space, seed % 3 == 1) };
+    let made = match seed % 3 {
+        0 => made,
+        by_half => with_vertices(&made, &space, by_half == 1),
+    };
     let bytes = made.to_bytes();
     let loaded = read(&space, k, &bytes).unwrap_or_else(|error| panic!("{error}: k = {k}, seed {seed}"));
     let case = || format!("k = {k}, {}, seed {seed}", space.rules());
@@ -134,8 +137,8 @@ fn every_flipped_bit_is_found() {
 /// Where the parts of the bytes are: their beginning, the width of their words and the number of words.
 fn parts(bytes: &[u8]) -> Vec<(usize, usize, usize)> {
     let (mut at, mut parts) = (Identity::BYTES + 8, Vec::new());
-    // Of the seen index five, of the labels of subgoals five, of those of vertices four.
-    for width in [4, 4, 8, 4, 8, 4, 4, 4, 8, 4, 4, 4, 8, 4] {
+    // Of the seen index five, of the labels of subgoals five, of those of vertices three.
+    for width in [4, 4, 8, 4, 8, 4, 4, 4, 8, 4, 4, 4, 8] {
         let count = u64::from_le_bytes(bytes[at..at + 8].try_into().expect("eight bytes")) as usize;
         parts.push((at + 8, width, count));
         at += 8 + (width * count).next_multiple_of(8);

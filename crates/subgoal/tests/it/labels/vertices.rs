@@ -63,7 +63,7 @@ fn every_budget_gives_the_same_distances() {
     let ks = [k(2), k(3), k(5), K::Any];
     let of = |seed: u64| {
         let mut rng = Rng::new(seed);
-        let grid = if seed % 3 == 0 { noise(&mut rng, 30, 40, 20) } else { rooms(&mut rng, 40, 30) };
+        let grid = if seed.is_multiple_of(3) { noise(&mut rng, 30, 40, 20) } else { rooms(&mut rng, 40, 30) };
         check::<Corners>(&grid, GAPS[seed as usize % 2], ks[seed as usize / 2 % 4], seed)
             + check::<Centers>(&grid, CornerRule::Never, k(2 + seed as u32 % 2), seed)
     };
