@@ -110,9 +110,9 @@ fn every_setup_makes_the_planner_that_it_promises() {
     let grids = 5 * (4 * (4 + 1 + 1 + 4 + 5 + 3 + 3 + 2 + 3) + 2 * (5 + 4));
     // anya, plain and smoothed, for each k and for ∞ under each gap rule.
     let anya = 5 * 2 * 2;
-    // 7 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3
+    // 8 of subgoal and one that is smoothed: at corners for each k and for ∞, at centers for k = 2 under 3
     // rules and for k = 3 under one. 4 of subgoal-theta at corners.
-    let subgoals = (5 * 2 + 4) * (7 + 1) + 4 * 2 * 4;
+    let subgoals = (5 * 2 + 4) * (8 + 1) + 4 * 2 * 4;
     // 8 of hpa and 10 of chpa, and one each that is smoothed, for the same k at centers.
     assert_eq!(setups, grids + anya + subgoals + (3 + 1) * (8 + 1 + 10 + 1));
 }

@@ -150,7 +150,7 @@ fn old_versions_are_refused_by_name() {
     assert_eq!(error.code(), ErrorCode::IndexEngine);
     assert_eq!(
         error.to_string(),
-        "expected version 4 of the subgoal index, found version 3; prepare it again"
+        "expected version 5 of the subgoal index, found version 3; prepare it again"
     );
 }
 

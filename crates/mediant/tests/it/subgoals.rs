@@ -76,7 +76,7 @@ fn a_saved_subgoal_graph_is_as_good_as_a_new_one() {
             }
         }
     }
-    assert_eq!(setups, 5 * (2 * 4 + 3 + 1) + 4 * 2 * 3 + 12 * 3);
+    assert_eq!(setups, 5 * (2 * 4 + 3 + 1) + 4 * 2 * 3 + 12 * 4);
 }
 
 #[test]
