@@ -80,8 +80,8 @@ const FAMILIES: [Family; 2] = [
     },
 ];
 const ANY_ANGLE: &str = "subgoal:any:open";
-/// More memory than the default allows, so that large maps have labels too.
-const LABELS: &str = "subgoal:any:open,memory=1GB";
+/// Hub labels, whatever memory they take, so that large maps have them too.
+const LABELS: &str = "subgoal:any:open,levels=labels";
 const CONTRACTED: &str = "subgoal:any:open,levels=contracted";
 /// The bundled map that stands in for the first where the set is not there.
 const BUNDLED: &str = "town";
@@ -188,7 +188,7 @@ fn show(record: &Record) -> Section {
     );
     section.text(
         "`subgoal` keeps hub labels where they fit its budget, 48 bytes a cell but at least 32 MB, else a \
-         contraction hierarchy; `memory=1GB` allows more, and `levels=contracted` always keeps a contraction. \
+         contraction hierarchy; `levels=labels` allows any amount, and `levels=contracted` always keeps a contraction. \
          In the tables `*` marks a contraction in place of labels, `†` a map on which nothing is kept and \
          another engine searches.",
     );
