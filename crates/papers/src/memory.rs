@@ -47,11 +47,15 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     findings(context, paths.chain(distances).collect::<Result<_, Error>>()?)
 }
 
+/// The row of a setup on a map.
+fn row_of<'a>(record: &'a Record, map: &str, text: &str) -> Option<&'a Row> {
+    let competitor = text.parse::<Setup>().map_or_else(|_| text.to_owned(), |setup| setup.to_string());
+    record.rows.iter().find(|row| row.is(&[("map", map), ("competitor", &competitor)]))
+}
+
 /// The row of a setup on a map; of hub labels only where there are some.
 fn on<'a>(record: &'a Record, map: &str, text: &str) -> Option<&'a Row> {
-    let competitor = text.parse::<Setup>().map_or_else(|_| text.to_owned(), |setup| setup.to_string());
-    let row = record.rows.iter().find(|row| row.is(&[("map", map), ("competitor", &competitor)]))?;
-    (text != LABELS || row.text("kept") == Kept::Labels.name()).then_some(row)
+    row_of(record, map, text).filter(|row| text != LABELS || row.text("kept") == Kept::Labels.name())
 }
 
 /// The number in a column of such a row.
@@ -245,7 +249,7 @@ fn budgets(record: &Record) -> Table {
     ]);
     let maps = record.distinct("map");
     for text in BUDGETS.into_iter().chain([LABELS]) {
-        let rows: Vec<&Row> = maps.iter().filter_map(|map| on(record, map, text)).collect();
+        let rows: Vec<&Row> = maps.iter().filter_map(|map| row_of(record, map, text)).collect();
         if rows.is_empty() {
             continue;
         }

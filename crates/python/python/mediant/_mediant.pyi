@@ -96,7 +96,7 @@ Heuristic: TypeAlias = Literal["hk", "euclidean", "zero"]
 Smooth: TypeAlias = Literal["linear", "taut"]
 Status: TypeAlias = Literal["found", "unreachable", "nearest", "stopped", "invalid"]
 Limit: TypeAlias = Literal["cost", "expansions", "timeout", "cancelled"]
-Stage: TypeAlias = Literal["edges", "hierarchy", "sight", "labels"]
+Stage: TypeAlias = Literal["edges", "hierarchy", "sight", "labels", "vertices"]
 Origin: TypeAlias = Literal["prepared", "loaded", "repaired", "unchanged"]
 
 class Motion(TypedDict, total=False):
