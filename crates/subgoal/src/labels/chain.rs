@@ -12,7 +12,7 @@ use std::marker::PhantomData;
 use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::{merge::Label, pack::Packed};
+use super::{lists::LabelLists, pack::Packed};
 use crate::{
     chunks::in_chunks,
     placement::{BuildContext, EdgeFinder},
@@ -22,10 +22,11 @@ use crate::{
 /// The byte of a label whose successor, or whose group, has to be searched for.
 const SEARCH: u8 = u8::MAX;
 
-/// Packs the labels of all subgoals, each with the label that comes after it; `None` if a cost is too large.
+/// Packs the labels of all subgoals, each with the label that comes after it; `None` if there are too
+/// many.
 pub(super) fn pack<P: EdgeFinder>(
     context: BuildContext<'_, P>,
-    labels: &[Vec<Label>],
+    labels: LabelLists,
     interrupt: &Interrupt,
 ) -> Result<Option<Packed>, Interrupted> {
     let Some(packed) = Packed::new(context, labels, interrupt)? else { return Ok(None) };

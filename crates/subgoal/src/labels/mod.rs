@@ -40,6 +40,7 @@ mod chain;
 mod codec;
 mod join;
 mod lines;
+mod lists;
 mod many;
 mod merge;
 mod pack;
