@@ -43,6 +43,7 @@ mod lines;
 mod lists;
 mod many;
 mod merge;
+mod near;
 mod pack;
 mod planner;
 mod reader;
@@ -58,7 +59,10 @@ use mediant_search::parts::{HasFreeSpace, Metric};
 
 use self::pack::Packed;
 pub(crate) use self::reader::LabelReader;
-pub use self::{many::Goals, planner::HubLabelSearch};
+pub use self::{
+    many::{Goals, GoalsError},
+    planner::HubLabelSearch,
+};
 use crate::{
     placement::{EdgeCriterion, SubgoalPlacement},
     seen::SeenIndex,

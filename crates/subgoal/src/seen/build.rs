@@ -197,7 +197,8 @@ fn rows_of(mask: u64) -> impl Iterator<Item = u64> {
 }
 
 /// The masks of a map, of which those that are not full are counted, and their numbers: the full one, the
-/// empty one, the others by frequency. If there are more than `most`, all that lie within one row come next, and the rarest are left out.
+/// empty one, the others by frequency. If there are more than `most`, all that lie within one row come next,
+/// and the rarest are left out.
 fn dictionary(mut counted: Vec<(usize, u64)>, most: usize) -> (Vec<u64>, HashMap<u64, u16>) {
     counted.sort_unstable_by_key(|&(count, mask)| (std::cmp::Reverse(count), mask));
     let mut masks = vec![FULL, 0];
