@@ -134,9 +134,9 @@ impl Limits {
     }
 
     /// A function that says whether it is time to stop, called at first and after each
-    /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions, and, of several starts and goals, before
-    /// each [`PAIRS_PER_LOOK`](Self::PAIRS_PER_LOOK)th pair that is searched. Libraries read no clock; the
-    /// caller does.
+    /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions, and, of several starts and goals,
+    /// before each [`PAIRS_PER_LOOK`](Self::PAIRS_PER_LOOK)th pair that is searched. Libraries read no clock;
+    /// the caller does.
     #[must_use]
     pub fn deadline(mut self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         self.interrupt = self.interrupt.deadline(is_over);

@@ -239,10 +239,12 @@ impl<G: SubgoalGeometry> ShortcutRule<'_, G> {
         steps.clear();
         steps.extend(around.iter().map(|arc| at.to(geometry.vertex(arc.first))));
         for (i, p) in around.iter().enumerate() {
-            let departures = bends.map(|bends| bends.after(-steps[i]));
-            let may_pass = |step: Vector| departures.is_none_or(|departures| departures.allows(step));
             onward.clear();
-            onward.extend((i + 1..around.len()).filter(|&j| may_pass(steps[j])).map(|j| j as u32));
+            let later = i as u32 + 1..around.len() as u32;
+            match bends {
+                Some(bends) => bends.after(-steps[i]).keep(steps, later, onward),
+                None => onward.extend(later),
+            }
             if onward.is_empty() {
                 continue;
             }
