@@ -130,8 +130,8 @@ impl Planner {
     }
 
     /// The number of the goal to which the path is the shortest, the first of several, and the length of that
-    /// path in cells; `None` if there is no way to any. With hub labels this takes one to two queries, also
-    /// for a thousand goals; and at any angle a query more for each goal whose path is as long up to
+    /// path in cells; `None` if there is no way to any. With hub labels this takes about as long as a query,
+    /// also for a thousand goals; and at any angle a query more for each goal whose path is as long up to
     /// rounding.
     ///
     /// # Errors

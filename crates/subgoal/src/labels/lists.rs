@@ -236,7 +236,7 @@ pub(super) struct FirstWords {
 }
 
 impl FirstWords {
-    /// Those of each subgoal's labels.
+    /// The words of each subgoal's labels.
     pub(super) fn iter(&self) -> impl Iterator<Item = &[u64]> {
         self.places.iter().map(|&Place { piece, first, length }| {
             let words = self.pieces.get(piece as usize).map_or(&[][..], |words| &words[..]);

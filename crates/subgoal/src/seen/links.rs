@@ -1,6 +1,6 @@
-//! What the vertices of blocks see, while it is found: about four bytes a link.
+//! Links of blocks of vertices to the subgoals that they see, about four bytes each.
 //!
-//! Links are found by subgoals, and read by blocks. So each block has a list of words. A word is an entry of
+//! They are found by subgoals, and read by blocks. So each block has a list of words. A word is an entry of
 //! the index, with a number of its mask that is not final: in the order in which masks were met.
 
 use std::{
