@@ -14,7 +14,7 @@ use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Verte
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
 use mediant_search::{BrokenPath, JumpError, Limit, QueryError};
-use mediant_subgoal::SubgoalError;
+use mediant_subgoal::{GoalsError, SubgoalError};
 
 use crate::{
     call::CallError,
@@ -279,6 +279,15 @@ impl From<SizeError> for Error {
         match error {
             SizeError::Interrupted(interrupted) => interrupted.into(),
             error => Self::Size(error),
+        }
+    }
+}
+
+impl From<GoalsError> for Error {
+    fn from(error: GoalsError) -> Self {
+        match error {
+            GoalsError::Query(error) => error.into(),
+            GoalsError::Interrupted(interrupted) => interrupted.into(),
         }
     }
 }

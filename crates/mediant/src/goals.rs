@@ -4,7 +4,7 @@ use std::{fmt, sync::Arc};
 
 use mediant_grid::{Identity, Interrupt, Point, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{End, PointEnds, Query};
+use mediant_search::{Answer, End, Limits, Path, PointEnds, Query, Stopped};
 
 use crate::{
     error::Error,
@@ -74,22 +74,19 @@ impl Index {
     }
 
     pub(crate) fn goals_of(&self, points: Vec<Point>, interrupt: &Interrupt) -> Result<Goals, Error> {
+        interrupt.check("preparing goals")?;
         points.iter().try_for_each(|&at| self.space().check_end(End::Goal, at))?;
-        // A stopped loop leaves goals out; the error after it says so.
-        let mut going = Ok(());
         let vertices: Option<Vec<Vertex>> = points.iter().map(|at| at.vertex()).collect();
-        let all = vertices.iter().flatten().copied().take_while(|_| {
-            going = interrupt.check("preparing goals");
-            going.is_ok()
-        });
-        let by_hub = match self.labels().filter(|_| vertices.is_some()) {
-            Some(labels) => Some(labels.goals(&mut { all })?),
+        let by_hub = match self.labels().zip(vertices) {
+            Some((labels, vertices)) => Some(labels.goals(&vertices, interrupt)?),
             None => None,
         };
-        going?;
         Ok(Goals(Arc::new(Inner { identity: self.identity(), points, by_hub })))
     }
 }
+
+/// The stage that an interrupted call names.
+const FINDING: &str = "finding distances to goals";
 
 impl Planner {
     /// The lengths of the paths from a start to each goal, in cells: infinite where there is no way. With hub
@@ -99,28 +96,58 @@ impl Planner {
     /// [`Error::Mismatch`] for goals of another map, rule or k; [`Error::Query`] for a start that is blocked
     /// or outside the map, and where the engine gives up.
     pub fn distances(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Vec<f64>, Error> {
-        let start = start.into();
+        self.distances_of(start.into(), goals, &NEVER)
+    }
+
+    pub(crate) fn distances_of(
+        &mut self,
+        start: Point,
+        goals: &Goals,
+        interrupt: &Interrupt,
+    ) -> Result<Vec<f64>, Error> {
         if let Some((start, by_hub, Asked { search: Some(search), costs })) = self.by_hub(start, goals)? {
-            search.distances(start, by_hub, costs)?;
+            search.distances(start, by_hub, costs, interrupt)?;
             return Ok(costs.iter().map(|cost| cost.map_or(f64::INFINITY, Cost::to_f64)).collect());
         }
         let mut distance = |&goal: &Point| -> Result<f64, Error> {
-            Ok(self.distance(PointEnds::new(start, goal))?.unwrap_or(f64::INFINITY))
+            interrupt.check(FINDING)?;
+            let ends = PointEnds::new(start, goal);
+            if interrupt.is_never() {
+                return Ok(self.distance(ends)?.unwrap_or(f64::INFINITY));
+            }
+            let path = self.path_within(ends.into(), interrupt)?;
+            Ok(path.map_or(f64::INFINITY, |path| self.guarantee().length(&path)))
         };
         goals.points().iter().map(&mut distance).collect()
     }
 
+    /// The path of a query that an interrupt can stop.
+    fn path_within(&mut self, query: Query, interrupt: &Interrupt) -> Result<Option<Path>, Error> {
+        match self.find(query.within(Limits::from(interrupt.clone())))? {
+            Answer::Stopped(Stopped { by, .. }) => Err(Error::Stopped { by, during: FINDING }),
+            answer => Ok(answer.into_path()),
+        }
+    }
+
     /// The number of the goal to which the path is the shortest, the first of several, and the length of that
-    /// path in cells; `None` if there is no way to any. With hub labels this takes one to two queries, also
-    /// for a thousand goals; and at any angle a query more for each goal whose path is as long up to
+    /// path in cells; `None` if there is no way to any. With hub labels this takes about as long as a query,
+    /// also for a thousand goals; and at any angle a query more for each goal whose path is as long up to
     /// rounding.
     ///
     /// # Errors
     /// As for [`distances`](Self::distances).
     pub fn nearest(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Option<(usize, f64)>, Error> {
-        let start = start.into();
+        self.nearest_of(start.into(), goals, &NEVER)
+    }
+
+    fn nearest_of(
+        &mut self,
+        start: Point,
+        goals: &Goals,
+        interrupt: &Interrupt,
+    ) -> Result<Option<(usize, f64)>, Error> {
         if let Some((start, by_hub, Asked { search: Some(search), .. })) = self.by_hub(start, goals)? {
-            let nearest = search.nearest(start, by_hub)?;
+            let nearest = search.nearest(start, by_hub, interrupt)?;
             return Ok(nearest.map(|(goal, cost)| (goal, cost.to_f64())));
         }
         if goals.points().is_empty() {
@@ -128,17 +155,23 @@ impl Planner {
         }
         if self.index().setup().smoothing.is_some() {
             // The nearest by smoothed paths is not always that by the paths of the search.
-            let lengths = self.distances(start, goals)?.into_iter().enumerate();
+            let lengths = self.distances_of(start, goals, interrupt)?.into_iter().enumerate();
             return Ok(lengths
                 .min_by(|(_, a), (_, b)| a.total_cmp(b))
                 .filter(|(_, least)| least.is_finite()));
         }
-        let found = self.find(Query::between([start], goals.points().iter().copied()))?.into_path();
+        let query = Query::between([start], goals.points().iter().copied());
+        let found = self.path_within(query, interrupt)?;
         Ok(found.and_then(|path| {
             let end = path.goal()?;
             let length = self.guarantee().length(&path);
             Some((goals.points().iter().position(|&goal| goal == end)?, length))
         }))
+    }
+
+    /// This planner, for questions over many goals that stop at a deadline or by a flag.
+    pub fn within(&mut self, limits: impl Into<Limits>) -> PlannerWithin<'_> {
+        PlannerWithin { planner: self, limits: limits.into() }
     }
 
     /// The start and the goals by hub, and what asks for them; `None` where that is not what the planner's
@@ -157,5 +190,43 @@ impl Planner {
             self.asked.search = self.index().labels().map(HasLabels::to_goals).transpose()?;
         }
         Ok(Some((start, by_hub, &mut self.asked)))
+    }
+}
+
+/// A planner whose questions over many goals stop at a deadline or by a flag, as the work of
+/// [`Within`](crate::Within) does: some thousand goals later at most. The limits of one query are its own
+/// ([`Query::within`](crate::Query::within)). Those on cost and expansions do not count here.
+///
+/// ```
+/// use mediant::{Engine, ErrorCode, K, Limits, Map, Motion};
+///
+/// let index = Map::new(40, 30)?.space(Motion::corners(K::ANY))?.prepare(Engine::Subgoal)?;
+/// let everywhere = index.goals((0..=40).flat_map(|x| (0..=30).map(move |y| (x, y))))?;
+/// let mut planner = index.planner();
+/// let late = planner.within(Limits::new().deadline(|| true)).distances((0, 0), &everywhere).unwrap_err();
+/// assert_eq!(late.code(), ErrorCode::Stopped);
+/// # Ok::<(), mediant::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct PlannerWithin<'p> {
+    planner: &'p mut Planner,
+    limits: Limits,
+}
+
+impl PlannerWithin<'_> {
+    /// [`Planner::distances`].
+    ///
+    /// # Errors
+    /// As for [`Planner::distances`], and [`Error::Stopped`].
+    pub fn distances(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Vec<f64>, Error> {
+        self.planner.distances_of(start.into(), goals, self.limits.interrupt())
+    }
+
+    /// [`Planner::nearest`].
+    ///
+    /// # Errors
+    /// As for [`Planner::nearest`], and [`Error::Stopped`].
+    pub fn nearest(&mut self, start: impl Into<Point>, goals: &Goals) -> Result<Option<(usize, f64)>, Error> {
+        self.planner.nearest_of(start.into(), goals, self.limits.interrupt())
     }
 }

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{FreeSpace, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Vertex};
 use mediant_moves::Cost;
-use mediant_search::{QueryError, parts::HasFreeSpace};
-use mediant_subgoal::{Goals, HubLabelSearch, HubLabels, SubgoalPlacement};
+use mediant_search::parts::HasFreeSpace;
+use mediant_subgoal::{Goals, GoalsError, HubLabelSearch, HubLabels, SubgoalPlacement};
 
 use crate::error::Error;
 
 /// Hub labels of either placement.
 pub(crate) trait HasLabels {
-    /// [`HubLabels::goals`].
-    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<Goals, Error>;
+    /// [`HubLabels::goals_interruptible`].
+    fn goals(&self, goals: &[Vertex], interrupt: &Interrupt) -> Result<Goals, GoalsError>;
 
     /// A search of distances to many goals.
     fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error>;
@@ -26,8 +26,8 @@ pub(crate) struct Labeled<P: SubgoalPlacement> {
 }
 
 impl<P: SubgoalPlacement> HasLabels for Labeled<P> {
-    fn goals(&self, goals: &mut dyn Iterator<Item = Vertex>) -> Result<Goals, Error> {
-        Ok(self.labels.goals(&self.space, goals)?)
+    fn goals(&self, goals: &[Vertex], interrupt: &Interrupt) -> Result<Goals, GoalsError> {
+        self.labels.goals_interruptible(&self.space, goals.iter().copied(), interrupt)
     }
 
     fn to_goals(&self) -> Result<Box<dyn ToGoals + Send>, Error> {
@@ -37,16 +37,22 @@ impl<P: SubgoalPlacement> HasLabels for Labeled<P> {
 
 /// Distances to many goals by hub labels.
 pub(crate) trait ToGoals {
-    /// [`HubLabelSearch::distances`].
+    /// [`HubLabelSearch::distances_interruptible`].
     fn distances(
         &mut self,
         start: Vertex,
         goals: &Goals,
         distances: &mut Vec<Option<Cost>>,
-    ) -> Result<(), QueryError>;
+        interrupt: &Interrupt,
+    ) -> Result<(), GoalsError>;
 
-    /// [`HubLabelSearch::nearest`].
-    fn nearest(&mut self, start: Vertex, goals: &Goals) -> Result<Option<(usize, Cost)>, QueryError>;
+    /// [`HubLabelSearch::nearest_interruptible`].
+    fn nearest(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        interrupt: &Interrupt,
+    ) -> Result<Option<(usize, Cost)>, GoalsError>;
 }
 
 impl<S, P> ToGoals for HubLabelSearch<Arc<S>, Arc<HubLabels<P>>>
@@ -59,12 +65,18 @@ where
         start: Vertex,
         goals: &Goals,
         distances: &mut Vec<Option<Cost>>,
-    ) -> Result<(), QueryError> {
-        self.distances(start, goals, distances)
+        interrupt: &Interrupt,
+    ) -> Result<(), GoalsError> {
+        self.distances_interruptible(start, goals, distances, interrupt)
     }
 
-    fn nearest(&mut self, start: Vertex, goals: &Goals) -> Result<Option<(usize, Cost)>, QueryError> {
-        self.nearest(start, goals)
+    fn nearest(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        interrupt: &Interrupt,
+    ) -> Result<Option<(usize, Cost)>, GoalsError> {
+        self.nearest_interruptible(start, goals, interrupt)
     }
 }
 

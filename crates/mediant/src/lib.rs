@@ -186,7 +186,7 @@
 //! |---|---|
 //! | ask for several ends, a tolerance, the nearest reachable vertex, limits | [`Query`] |
 //! | stop a search, or go on in steps | [`Limits`], [`Planner::begin`](Planner#a-search-in-steps) |
-//! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
+//! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)`, and [`Planner::within`] |
 //! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
 //! | lead many agents to one goal | [`Field`] |
 //! | find cheapest paths over cells with costs, cost distance, corridors | [`Map::costs`], [`Field::corridor`] |
@@ -302,7 +302,7 @@ pub use engine::Engine;
 pub use error::Error;
 pub use exceptions::Exceptions;
 pub use field::Field;
-pub use goals::Goals;
+pub use goals::{Goals, PlannerWithin};
 pub use ground::Ground;
 pub use index::{Index, Origin};
 pub use limits::Limits;

@@ -79,10 +79,17 @@ impl Index {
         }
         let columns = goals.len();
         if self.labels().is_some() && self.setup().smoothing.is_none() {
-            let (goals, planners) = (self.goals(goals.iter().copied())?, Planners::new(self.clone()));
+            let interrupt = limits.interrupt();
+            let goals = self.goals_of(goals.to_vec(), interrupt)?;
+            let planners = Planners::new(self.clone());
             let row = |row: usize| {
                 stop.check()?;
-                planners.with(|planner| planner.distances(starts[row], &goals))
+                let distances = planners.with(|planner| planner.distances_of(starts[row], &goals, interrupt));
+                distances.or_else(|error| {
+                    // So that the others know it.
+                    stop.check()?;
+                    Err(error)
+                })
             };
             let rows: Result<Vec<Vec<f64>>, Error> = in_order(starts.len(), row).into_iter().collect();
             return Ok(Table { goals: columns, values: rows?.concat() });
@@ -127,7 +134,7 @@ impl Stop<'_> {
         self.check()?;
         let query = match self.limits.interrupt().is_never() {
             true => Query::from(ends),
-            false => Query::from(ends).within(self.limits.clone()),
+            false => Query::from(ends).within(self.limits.interrupt().clone()),
         };
         match planner.find(query)? {
             Answer::Stopped(stopped) => {

@@ -4,6 +4,8 @@
 mod octile;
 mod taut;
 
+use std::ops::Range;
+
 use mediant_grid::{FreeSpace, Grid, Placement, PlacementKind, Vector, Vertex};
 use mediant_moves::{FiniteK, K};
 
@@ -75,6 +77,17 @@ impl Departures {
                 departures.allows(w) || share_cone(departures.arrival(), w, depth)
             }
             Self::Octile(departures) => departures.allows(w),
+        }
+    }
+
+    /// Appends those of the numbers along whose edges, among all these, the path may leave.
+    pub(crate) fn keep(self, edges: &[Vector], numbers: Range<u32>, kept: &mut Vec<u32>) {
+        match self {
+            // A loop of its own: most edges of a large graph are looked at here.
+            Self::Taut(departures) => {
+                kept.extend(numbers.filter(|&number| departures.allows(edges[number as usize])));
+            }
+            _ => kept.extend(numbers.filter(|&number| self.allows(edges[number as usize]))),
         }
     }
 }

@@ -129,7 +129,7 @@ impl<P: SubgoalPlacement> Ground<P> {
         contracted: &ContractedGraph,
         interrupt: &Interrupt,
     ) -> Result<SubgoalGraph<P>, SubgoalError> {
-        let count = contracted.arcs.iter().map(Vec::len).sum();
+        let count = contracted.arcs.total();
         if count > MAX_ARCS as usize {
             return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
         }

@@ -2,7 +2,10 @@
 
 use std::{
     ops::Range,
-    sync::atomic::{AtomicUsize, Ordering},
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
 };
 
 use mediant_grid::Interrupted;
@@ -34,5 +37,26 @@ pub(crate) fn in_chunks<S, T: Send>(
     {
         let mut scratch = scratch();
         chunks.map(|number| chunk(&mut scratch, number)).collect()
+    }
+}
+
+/// Scratch memory that threads borrow, one each.
+pub(crate) struct Pool<S>(Mutex<Vec<S>>);
+
+impl<S> Default for Pool<S> {
+    fn default() -> Self {
+        Self(Mutex::new(Vec::new()))
+    }
+}
+
+impl<S> Pool<S> {
+    /// Lends scratch memory, which is made if none is left.
+    pub(crate) fn lend<T>(&self, new: impl FnOnce() -> S, work: impl FnOnce(&mut S) -> T) -> T {
+        let spare = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = spare().pop();
+        let mut scratch = known.unwrap_or_else(new);
+        let done = work(&mut scratch);
+        spare().push(scratch);
+        done
     }
 }

@@ -121,7 +121,7 @@ pub use earlier::{EarlierMap, EarlierSearch};
 pub use error::SubgoalError;
 pub use graph::SubgoalGraph;
 pub use hierarchy::Hierarchy;
-pub use labels::{Goals, HubLabelSearch, HubLabels};
+pub use labels::{Goals, GoalsError, HubLabelSearch, HubLabels};
 pub use levels::LevelRecord;
 pub use placement::SubgoalPlacement;
 pub use planner::SubgoalAStar;

@@ -143,6 +143,76 @@ fn fields_tables_and_widest_paths_stop() {
     check("another k", |limits| jps.within(limits).for_k(K::N4));
 }
 
+/// Questions over many goals stop, whether labels answer them or searches; so do queries of many pairs, which
+/// labels answer without an expansion.
+#[test]
+fn questions_over_many_goals_stop() {
+    for (motion, engine) in [
+        (Motion::centers(K::N8), Engine::Subgoal),
+        (Motion::corners(K::ANY), Engine::Subgoal),
+        (Motion::corners(K::ANY), Engine::Anya),
+        (Motion::centers(K::N8), Engine::JpsBlock),
+    ] {
+        let index = map().space(motion).expect("a space").prepare(engine).expect("an index");
+        let ends = || (0..SIDE as i32).flat_map(|x| (0..SIDE as i32).map(move |y| (x, y)));
+        let ends: Vec<(i32, i32)> = ends().filter(|&at| index.space().is_free(at)).collect();
+        check("goals", |limits| index.within(limits).goals(ends.iter().copied()));
+        // A query of each pair takes its time without labels.
+        let some = &ends[..if engine == Engine::Subgoal { ends.len() } else { 60 }];
+        let goals = index.goals(some.iter().copied()).expect("free goals");
+        let planner = || index.planner();
+        check("distances", |limits| planner().within(limits).distances((0, 0), &goals));
+        check("the nearest", |limits| planner().within(limits).nearest((58, 58), &goals));
+        let (mut limited, mut plain) = (planner(), planner());
+        let not_met = Limits::new().deadline(|| false).expansions(0).cost(0.0);
+        let distances = limited.within(&not_met).distances((0, 0), &goals).expect("a free start");
+        assert_eq!(distances, plain.distances((0, 0), &goals).expect("a free start"));
+        let nearest = limited.within(&not_met).nearest((58, 58), &goals).expect("a free start");
+        assert_eq!(nearest, plain.nearest((58, 58), &goals).expect("a free start"));
+        check("a row", |limits| index.within(limits).table([(0, 0)], some.iter().copied()));
+        let table = index.within(&not_met).table([(0, 0)], some.iter().copied()).expect("free ends");
+        assert_eq!(table.values(), distances);
+
+        // Pairs on both sides of a wall are close, and the way around it is long: all are searched.
+        let wall = Map::from_fn(SIDE, SIDE, |x, y| x == 30 && y != SIDE - 1).expect("a map");
+        let index = wall.space(motion).expect("a space").prepare(engine).expect("an index");
+        let side = |x: i32| (10..25).map(move |y| (x, y)).collect::<Vec<_>>();
+        let (starts, goals, planner) = (side(28), side(33), || index.planner());
+        let query = || Query::between(starts.iter().copied(), goals.iter().copied());
+        check("many pairs", |limits| match planner().find(query().within(limits))? {
+            mediant::Answer::Stopped(stopped) => {
+                Err(Error::Stopped { by: stopped.by, during: "searching pairs" })
+            }
+            answer => Ok(answer),
+        });
+        let (limits, asked) = counting(usize::MAX);
+        assert!(planner().find(query().within(limits)).expect("free ends").path().is_some());
+        let (looks, pairs) = (asked.load(Ordering::Relaxed), starts.len() * goals.len());
+        assert!(looks >= pairs / 16, "{engine}: {looks} looks at {pairs} pairs");
+    }
+}
+
+/// A query that labels answer makes no expansion: it needs none, and ends where it may not begin.
+#[test]
+fn labels_need_no_expansions() {
+    for motion in [Motion::centers(K::N8), Motion::corners(K::ANY)] {
+        let mut planner = map().space(motion).expect("a space").planner(Engine::Subgoal).expect("one");
+        let query = || Query::new((0, 0), (58, 58));
+        let plain = planner.find(query()).expect("free ends");
+        assert_eq!(planner.find(query().within(Limits::new().expansions(0))), Ok(plain));
+        for (limits, by) in [
+            (Limits::new().deadline(|| true), Limit::Timeout),
+            (Limits::new().cancel(Arc::new(AtomicBool::new(true))), Limit::Cancelled),
+        ] {
+            match planner.find(query().within(limits)).expect("free ends") {
+                mediant::Answer::Stopped(stopped) => assert_eq!(stopped.by, by),
+                answer => panic!("{answer:?} after {by:?}"),
+            }
+            assert_eq!(planner.expansions(), 0);
+        }
+    }
+}
+
 /// A query's limits cover what is prepared for it.
 #[test]
 fn exceptions_stop() {

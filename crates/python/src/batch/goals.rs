@@ -1,6 +1,6 @@
 //! Many starts with the same goals: tables, and the nearest goal of each start.
 
-use std::sync::Arc;
+use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant::{Error, Goals, Index, Limits, Planner, Planners, Point};
 use numpy::PyArray1;
@@ -64,8 +64,9 @@ fn rows<'py>(
     let goals = prepared(py, index, goals)?;
     let chunk = (Planners::CHUNK / columns).max(1);
     let all = Numbered { count: starts.len(), chunk, queries: columns };
-    let answer = move |chunk: &mut Chunk, planner: &mut Planner, row: usize, _: &_| {
-        let distances = planner.distances(starts[row], &goals);
+    let answer = move |chunk: &mut Chunk, planner: &mut Planner, row: usize, flag: &Arc<AtomicBool>| {
+        let limits = Limits::new().cancel(Arc::clone(flag));
+        let distances = planner.within(limits).distances(starts[row], &goals);
         match distances {
             Ok(distances) => chunk.distances.extend(distances),
             Err(error) => _ = chunk.invalid.get_or_insert((row * columns, error)),
@@ -108,8 +109,9 @@ pub(crate) fn nearest<'py>(
     let is_valid = |&(_, at): &(i64, Point)| index.space().is_free(at);
     let (numbers, goals): (Vec<i64>, Vec<Point>) = (0..).zip(goals).filter(is_valid).unzip();
     let (goals, all) = (prepared(py, index, goals)?, Numbered::queries(starts.len()));
-    let answer = move |chunk: &mut Nearest, planner: &mut Planner, index: usize, _: &_| {
-        let (number, distance) = match planner.nearest(starts[index], &goals) {
+    let answer = move |chunk: &mut Nearest, planner: &mut Planner, index: usize, flag: &Arc<AtomicBool>| {
+        let limits = Limits::new().cancel(Arc::clone(flag));
+        let (number, distance) = match planner.within(limits).nearest(starts[index], &goals) {
             Ok(Some((goal, distance))) => (numbers.get(goal).copied(), distance),
             Ok(None) => (None, f64::INFINITY),
             Err(error) => {

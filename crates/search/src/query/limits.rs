@@ -104,6 +104,10 @@ impl Limits {
     /// How many expansions are made between two looks at the deadline.
     pub const EXPANSIONS_PER_LOOK: u64 = 64;
 
+    /// How many pairs of a start and a goal are searched between two looks at the deadline, however few
+    /// expansions they take.
+    pub const PAIRS_PER_LOOK: u64 = 16;
+
     /// No limits.
     #[must_use]
     pub fn new() -> Self {
@@ -119,8 +123,10 @@ impl Limits {
         self
     }
 
-    /// The most expansions, as an observer counts them. The goal's is none. HPA* is not stopped while it
-    /// searches within clusters, before and after its search between them, and can make more there.
+    /// The most expansions, as an observer counts them. The goal's is none. Where a planner needs none, as
+    /// with hub labels or where the goal is in plain sight, any number of them is enough, also 0: the flag
+    /// and the deadline alone stop such queries. HPA* is not stopped while it searches within clusters,
+    /// before and after its search between them, and can make more there.
     #[must_use]
     pub fn expansions(mut self, count: u64) -> Self {
         self.expansions = Some(count);
@@ -128,15 +134,17 @@ impl Limits {
     }
 
     /// A function that says whether it is time to stop, called at first and after each
-    /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions. Libraries read no clock; the caller
-    /// does.
+    /// [`EXPANSIONS_PER_LOOK`](Self::EXPANSIONS_PER_LOOK) expansions, and, of several starts and goals,
+    /// before each [`PAIRS_PER_LOOK`](Self::PAIRS_PER_LOOK)th pair that is searched. Libraries read no clock;
+    /// the caller does.
     #[must_use]
     pub fn deadline(mut self, is_over: impl Fn() -> bool + Send + Sync + 'static) -> Self {
         self.interrupt = self.interrupt.deadline(is_over);
         self
     }
 
-    /// A flag by which another thread stops the search. Read before each expansion.
+    /// A flag by which another thread stops the search. Read before each expansion, and before each pair of
+    /// a start and a goal.
     #[must_use]
     pub fn cancel(mut self, flag: Arc<AtomicBool>) -> Self {
         self.interrupt = self.interrupt.cancel(flag);
@@ -185,6 +193,13 @@ impl Limits {
             return Some(Limit::Cancelled);
         }
         (looks_at_deadline && self.interrupt.is_over()).then_some(Limit::Timeout)
+    }
+}
+
+/// The deadline, the flag and the listener alone.
+impl From<Interrupt> for Limits {
+    fn from(interrupt: Interrupt) -> Self {
+        Self { cost: None, expansions: None, interrupt }
     }
 }
 

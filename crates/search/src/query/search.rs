@@ -151,6 +151,7 @@ impl Search {
             limits: wishes.limits,
             expansions: 0,
             next_look: 0,
+            pairs: 0,
             step_end: 0,
             is_step: false,
             known: Cost::MAX,
@@ -274,6 +275,7 @@ impl Search {
             self.progress.goal = ends.goal;
             self.progress.nearest = (self.metric.between(ends.start, ends.goal), ends.start);
             self.progress.least = least;
+            self.progress.begin_pair();
             self.progress.pause = self.progress.reason();
             // The number of expansions does not forbid a path that takes none.
             let waits = |pause| !matches!(pause, Pause::Step | Pause::Limit(Limit::Expansions));

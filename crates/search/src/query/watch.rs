@@ -30,6 +30,8 @@ pub(super) struct Progress {
     /// After how many of them the deadline is looked at. Some planners make several expansions between two
     /// pauses.
     pub(super) next_look: u64,
+    /// The number of pairs whose search was begun.
+    pub(super) pairs: u64,
     /// How many expansions there are when the step is over.
     pub(super) step_end: u64,
     /// Whether the observer may pause the search, too.
@@ -59,6 +61,14 @@ impl Progress {
     /// paths at any angle may differ in their costs, which are sums of rounded lengths.
     pub(super) const fn is_beaten(&self, least: Cost) -> bool {
         least.to_bits() > at_most(self.known).to_bits()
+    }
+
+    /// Begins with another pair. A planner may answer many of them without an expansion.
+    pub(super) const fn begin_pair(&mut self) {
+        self.pairs += 1;
+        if self.pairs.is_multiple_of(Limits::PAIRS_PER_LOOK) {
+            self.next_look = self.expansions;
+        }
     }
 
     /// The reason to pause now, if there is one.

@@ -1,43 +1,43 @@
 //! Shortcuts of subgoals that may be contracted, found for many of them at once.
 
-use std::sync::{Mutex, PoisonError};
-
 use mediant_grid::Interrupted;
 
 use super::{Contraction, ShortcutFinder, Shortcuts, SubgoalGeometry};
+use crate::chunks::Pool;
 
 /// The shortcuts that contracting a subgoal takes, with the work to find them.
 pub(super) struct Evaluation {
     pub(super) id: u32,
+    /// Empty if they are not kept.
     pub(super) shortcuts: Shortcuts,
+    /// The number of shortcuts.
+    pub(super) count: usize,
     /// The number of arcs that witness searches scanned.
     pub(super) arcs_scanned: u64,
 }
 
 /// Scratch memory for each thread.
-#[derive(Default)]
-pub(super) struct Finders(Mutex<Vec<ShortcutFinder>>);
-
-impl Finders {
-    fn lend<T>(&self, work: impl FnOnce(&mut ShortcutFinder) -> T) -> T {
-        let spare = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut finder = spare().pop().unwrap_or_default();
-        let done = work(&mut finder);
-        spare().push(finder);
-        done
-    }
-}
+pub(super) type Finders = Pool<ShortcutFinder>;
 
 impl<G: SubgoalGeometry + Sync> Contraction<G> {
-    /// Finds the shortcuts of subgoals, by witness searches that scan `limit` arcs each; in their order.
+    /// Finds the shortcuts of subgoals, by witness searches that scan `limit` arcs each; in their order. If
+    /// they are not kept, they are just counted: before any subgoal is contracted there are many.
     pub(super) fn evaluate(
         &self,
         ids: &[u32],
         finders: &Finders,
         limit: u64,
+        are_kept: bool,
     ) -> Result<Vec<Evaluation>, Interrupted> {
+        let evaluate_one = |finder: &mut ShortcutFinder, id| {
+            let evaluation = self.evaluate_one(finder, id, limit)?;
+            let shortcuts = if are_kept { evaluation.shortcuts } else { Shortcuts::new() };
+            Ok(Evaluation { shortcuts, ..evaluation })
+        };
         let evaluate = |ids: &[u32]| -> Result<Vec<Evaluation>, Interrupted> {
-            finders.lend(|finder| ids.iter().map(|&id| self.evaluate_one(finder, id, limit)).collect())
+            finders.lend(ShortcutFinder::default, |finder| {
+                ids.iter().map(|&id| evaluate_one(finder, id)).collect()
+            })
         };
         #[cfg(feature = "parallel")]
         if ids.len() > 1 {
@@ -57,6 +57,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
     ) -> Result<Evaluation, Interrupted> {
         let before = finder.witness.arcs_scanned;
         let (shortcuts, _) = self.find_shortcuts(finder, id, limit)?;
-        Ok(Evaluation { id, shortcuts, arcs_scanned: finder.witness.arcs_scanned - before })
+        let count = shortcuts.len();
+        Ok(Evaluation { id, shortcuts, count, arcs_scanned: finder.witness.arcs_scanned - before })
     }
 }

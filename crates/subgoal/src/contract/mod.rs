@@ -5,6 +5,7 @@
 //! work: then the shortcut is superfluous, and as long as the path over the subgoal. So distances stay,
 //! however little is searched.
 
+mod arc_lists;
 mod evaluate;
 mod overlay_arc;
 mod priority;
@@ -15,7 +16,7 @@ mod witness;
 
 use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
 
-pub(crate) use self::overlay_arc::OverlayArc;
+pub(crate) use self::{arc_lists::ArcLists, overlay_arc::OverlayArc};
 
 use self::witness::{WitnessGraph, WitnessSearch};
 use crate::{arc::NONE, bends::BendRule, bounds::Bounds};
@@ -35,8 +36,10 @@ pub(crate) trait SubgoalGeometry {
 /// A graph whose subgoals are contracted one after another. The distances between those that remain do not
 /// change.
 pub(crate) struct Contraction<G> {
+    /// The arcs of the subgoals that are not contracted, to one another.
+    arcs: ArcLists,
     /// The arcs of a contracted subgoal are those that it had when it was contracted.
-    arcs: Vec<Vec<OverlayArc>>,
+    upward: ArcLists,
     contracted: Vec<bool>,
     order: Vec<u32>,
     geometry: G,
@@ -56,7 +59,7 @@ pub(crate) trait Overlay {
 
 /// The arcs of all subgoals, and the box around those that were looked at.
 struct AllArcs<'c, G> {
-    arcs: &'c [Vec<OverlayArc>],
+    arcs: &'c ArcLists,
     geometry: &'c G,
     read: Bounds,
 }
@@ -90,7 +93,7 @@ pub(crate) type Decision<'c> = (u32, u32, Bounds, Option<&'c Shortcuts>);
 pub(crate) struct ContractedGraph {
     /// The arcs of a contracted subgoal to those that were contracted later or not at all; the arcs of each
     /// of the others to one another.
-    pub(crate) arcs: Vec<Vec<OverlayArc>>,
+    pub(crate) arcs: ArcLists,
     /// Which subgoals were contracted.
     pub(crate) contracted: Vec<bool>,
     /// The contracted subgoals, first contracted first.
@@ -105,20 +108,32 @@ impl<G: SubgoalGeometry> Contraction<G> {
         geometry: G,
         interrupt: Interrupt,
     ) -> Result<Self, Interrupted> {
-        let mut arcs: Vec<Vec<OverlayArc>> = vec![Vec::new(); count];
+        let mut counts = vec![0; count];
+        for (number, &(a, b)) in edges.iter().enumerate() {
+            interrupt.check_every(1 << 14, number, DURING)?;
+            counts[a as usize] += 1;
+            counts[b as usize] += 1;
+        }
+        let mut arcs = ArcLists::with_room(counts.into_iter());
         for (number, &(a, b)) in edges.iter().enumerate() {
             interrupt.check_every(1 << 14, number, DURING)?;
             let cost = geometry.distance(a, b);
-            arcs[a as usize].push(OverlayArc { cost, to: b, middle: NONE, first: b, last: a });
-            arcs[b as usize].push(OverlayArc { cost, to: a, middle: NONE, first: a, last: b });
+            arcs.push(a, OverlayArc { cost, to: b, middle: NONE, first: b, last: a });
+            arcs.push(b, OverlayArc { cost, to: a, middle: NONE, first: a, last: b });
         }
         let [contracted, in_round] = [(); 2].map(|()| vec![false; count]);
-        Ok(Self { arcs, contracted, order: Vec::new(), geometry, in_round, interrupt })
+        let upward = ArcLists::with_room(std::iter::repeat_n(0, count));
+        Ok(Self { arcs, upward, contracted, order: Vec::new(), geometry, in_round, interrupt })
     }
 
-    pub(crate) fn finish(self) -> ContractedGraph {
+    pub(crate) fn finish(mut self) -> ContractedGraph {
+        for (id, around) in (0..).zip(self.arcs.iter()) {
+            if !self.contracted[id as usize] {
+                self.upward.set(id, around);
+            }
+        }
         ContractedGraph {
-            arcs: self.arcs,
+            arcs: self.upward,
             contracted: self.contracted,
             #[cfg(test)]
             order: self.order,
@@ -182,15 +197,15 @@ impl<G: SubgoalGeometry> Contraction<G> {
 
     /// Contracts a subgoal: removes the arcs that lead to it, and adds its shortcuts.
     fn contract(&mut self, id: u32, shortcuts: &Shortcuts) {
-        let mut around = std::mem::take(&mut self.arcs[id as usize]);
-        around.shrink_to_fit();
+        let around = self.arcs[id as usize].to_vec();
+        self.arcs.clear(id);
         for arc in &around {
-            remove(&mut self.arcs[arc.to as usize], id);
+            self.arcs.remove(arc.to, id);
         }
         for (from, arc) in shortcuts.iter().flat_map(|&pair| both_ways(id, &around, pair)) {
-            add(&mut self.arcs[from as usize], arc);
+            self.arcs.add(from, arc);
         }
-        self.arcs[id as usize] = around;
+        self.upward.set(id, &around);
         self.contracted[id as usize] = true;
         self.order.push(id);
     }
@@ -224,10 +239,12 @@ impl<G: SubgoalGeometry> ShortcutRule<'_, G> {
         steps.clear();
         steps.extend(around.iter().map(|arc| at.to(geometry.vertex(arc.first))));
         for (i, p) in around.iter().enumerate() {
-            let departures = bends.map(|bends| bends.after(-steps[i]));
-            let may_pass = |step: Vector| departures.is_none_or(|departures| departures.allows(step));
             onward.clear();
-            onward.extend((i + 1..around.len()).filter(|&j| may_pass(steps[j])).map(|j| j as u32));
+            let later = i as u32 + 1..around.len() as u32;
+            match bends {
+                Some(bends) => bends.after(-steps[i]).keep(steps, later, onward),
+                None => onward.extend(later),
+            }
             if onward.is_empty() {
                 continue;
             }

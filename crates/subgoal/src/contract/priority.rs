@@ -13,12 +13,13 @@ use super::overlay_arc::OverlayArc;
 /// looked at again before it is contracted, one with too high a priority is not. The guess: with the arc to
 /// the neighbor go as many of the shortcuts as an arc has in the mean, and all new arcs need none.
 pub(super) struct Priorities {
+    /// Beside what else is known: they are compared far more often than they change.
+    priorities: Vec<i64>,
     subgoals: Vec<Known>,
 }
 
 #[derive(Clone, Copy, Default)]
 struct Known {
-    priority: i64,
     /// The number of shortcuts, or a guess.
     added: u32,
     /// How many of them an arc had in the mean when they were found.
@@ -36,7 +37,7 @@ impl Known {
 
 impl Priorities {
     pub(super) fn new(count: usize) -> Self {
-        Self { subgoals: vec![Known::default(); count] }
+        Self { priorities: vec![0; count], subgoals: vec![Known::default(); count] }
     }
 
     /// Sets the priority of a subgoal whose contraction adds and removes so many arcs.
@@ -46,14 +47,15 @@ impl Priorities {
         // A shortcut has an arc at each end.
         known.added_per_arc = (2 * added).checked_div(removed).unwrap_or(0) as u32;
         known.known_depth = known.depth;
-        known.priority = known.weigh(removed);
+        self.priorities[id as usize] = known.weigh(removed);
     }
 
     /// Lowers the priority of a subgoal that has so many arcs, now that one of its neighbors is contracted.
     pub(super) fn lower(&mut self, id: u32, arcs: usize) {
         let known = &mut self.subgoals[id as usize];
         known.added = known.added.saturating_sub(known.added_per_arc);
-        known.priority = known.priority.min(known.weigh(arcs));
+        let priority = &mut self.priorities[id as usize];
+        *priority = known.weigh(arcs).min(*priority);
     }
 
     /// Notes that a subgoal is contracted before its neighbors.
@@ -67,7 +69,7 @@ impl Priorities {
 
     /// Whether a subgoal comes before all its neighbors.
     pub(super) fn is_least(&self, id: u32, around: &[OverlayArc]) -> bool {
-        let rank = |id: u32| (self.subgoals[id as usize].priority, scatter(id));
+        let rank = |id: u32| (self.priorities[id as usize], scatter(id));
         let own = rank(id);
         around.iter().all(|arc| own < rank(arc.to))
     }

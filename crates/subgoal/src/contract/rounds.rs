@@ -72,7 +72,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         let mut check: Vec<u32> = (0..self.arcs.len() as u32).collect();
         let mut arcs_scanned = 0;
         for ids in check.chunks(SLICE) {
-            for evaluation in self.evaluate(ids, &finders, FIRST_WITNESS_LIMIT)? {
+            for evaluation in self.evaluate(ids, &finders, FIRST_WITNESS_LIMIT, false)? {
                 arcs_scanned += evaluation.arcs_scanned;
                 self.set_priority(&mut priorities, &evaluation);
             }
@@ -118,7 +118,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         // Neighbors of candidates are no candidates. So what one slice changes is not what another looks at,
         // except for witnesses.
         for ids in candidates.chunks(SLICE) {
-            for evaluation in self.evaluate(ids, finders, limit)? {
+            for evaluation in self.evaluate(ids, finders, limit, true)? {
                 let id = evaluation.id;
                 arcs_scanned += evaluation.arcs_scanned;
                 self.set_priority(priorities, &evaluation);
@@ -145,11 +145,11 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
 
     /// The number of edges, before a subgoal is contracted.
     fn edges(&self) -> u64 {
-        self.arcs.iter().map(Vec::len).sum::<usize>() as u64 / 2
+        self.arcs.total() as u64 / 2
     }
 
     fn set_priority(&self, priorities: &mut Priorities, evaluation: &Evaluation) {
         let id = evaluation.id;
-        priorities.set(id, evaluation.shortcuts.len(), self.arcs[id as usize].len());
+        priorities.set(id, evaluation.count, self.arcs[id as usize].len());
     }
 }

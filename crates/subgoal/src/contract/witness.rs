@@ -12,6 +12,8 @@ pub(super) struct WitnessSearch {
     queue: BinaryHeap<Reverse<(u128, u32)>>,
     /// The targets without a witness, each with the most that one may cost; some of those with one.
     targets: Vec<(u32, u128)>,
+    /// The most that a witness of each target may cost, and 0 before them.
+    bounds: Vec<u128>,
     /// The number of targets without a witness.
     left: usize,
     /// The largest cost that a witness may have.
@@ -20,15 +22,21 @@ pub(super) struct WitnessSearch {
     pub(super) arcs_scanned: u64,
 }
 
+/// A node, in 24 bytes: those of a large graph are more than a processor's cache holds.
 #[derive(Clone, Copy, Default)]
 struct WitnessNode {
-    cost: u128,
-    /// The most that a witness may cost, if this is a target.
-    bound: u128,
+    /// The cost in two halves.
+    cost: [u64; 2],
     /// The last search that reached it.
     generation: u32,
-    /// The last search that had it as a target without a witness.
+    /// The number of its bound, while it is a target without a witness; else 0.
     target: u32,
+}
+
+impl WitnessNode {
+    const fn cost(&self) -> u128 {
+        self.cost[0] as u128 | (self.cost[1] as u128) << 64
+    }
 }
 
 /// The graph of a witness search.
@@ -50,12 +58,16 @@ impl WitnessSearch {
             self.generation = 1;
         }
         self.queue.clear();
-        self.targets.clear();
+        for (to, _) in self.targets.drain(..) {
+            self.nodes[to as usize].target = 0;
+        }
         self.targets.extend(targets);
+        self.bounds.clear();
+        self.bounds.push(0);
         self.max_cost = 0;
         for &(to, bound) in &self.targets {
-            let node = &mut self.nodes[to as usize];
-            (node.bound, node.target) = (bound, self.generation);
+            self.nodes[to as usize].target = self.bounds.len() as u32;
+            self.bounds.push(bound);
             self.max_cost = self.max_cost.max(bound);
         }
         self.left = self.targets.len();
@@ -64,9 +76,9 @@ impl WitnessSearch {
 
     fn reach(&mut self, at: u32, cost: u128) {
         let node = &mut self.nodes[at as usize];
-        if node.generation != self.generation || cost < node.cost {
-            (node.cost, node.generation) = (cost, self.generation);
-            if node.target == self.generation && cost <= node.bound {
+        if node.generation != self.generation || cost < node.cost() {
+            (node.cost, node.generation) = ([cost as u64, (cost >> 64) as u64], self.generation);
+            if node.target != 0 && cost <= self.bounds[node.target as usize] {
                 node.target = 0;
                 self.left -= 1;
             }
@@ -86,14 +98,14 @@ impl WitnessSearch {
         while self.left > 0 && self.arcs_scanned < limit {
             let Some(Reverse((cost, at))) = self.queue.pop() else { return };
             if self.left < self.targets.len() {
-                let Self { nodes, targets, generation, .. } = self;
-                targets.retain(|&(to, _)| nodes[to as usize].target == *generation);
+                let Self { nodes, targets, .. } = self;
+                targets.retain(|&(to, _)| nodes[to as usize].target != 0);
                 self.max_cost = targets.iter().map(|&(_, bound)| bound).max().unwrap_or(0);
             }
             if cost > self.max_cost {
                 return;
             }
-            if cost > self.nodes[at as usize].cost {
+            if cost > self.nodes[at as usize].cost() {
                 continue;
             }
             self.arcs_scanned += 1;
@@ -103,9 +115,14 @@ impl WitnessSearch {
             let around = overlay.around(at);
             self.arcs_scanned += around.len() as u64;
             for arc in around {
+                let cost = cost + arc.cost;
+                // Most arcs end here.
+                if cost > self.max_cost || arc.to == without {
+                    continue;
+                }
                 // One more for a subgoal that is contracted before the one to avoid.
-                let cost = cost + arc.cost + u128::from(arc.to < without && in_round[arc.to as usize]);
-                if arc.to != without && cost <= self.max_cost {
+                let cost = cost + u128::from(arc.to < without && in_round[arc.to as usize]);
+                if cost <= self.max_cost {
                     self.reach(arc.to, cost);
                 }
             }
@@ -114,6 +131,6 @@ impl WitnessSearch {
 
     /// Whether a target has a witness.
     pub(super) fn has_witness(&self, to: u32) -> bool {
-        self.nodes[to as usize].target != self.generation
+        self.nodes[to as usize].target == 0
     }
 }

@@ -2,14 +2,15 @@
 
 use std::{marker::PhantomData, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted};
+use mediant_grid::{FreeSpace, Identity, Interrupt};
 use mediant_moves::K;
 
 use super::{
     Geometry, HubLabels,
     chain::pack,
-    merge::{Label, merge},
-    pack::{Packed, in_cells},
+    lists::LabelLists,
+    merge::merge,
+    pack::{Packed, form},
     vertices::VertexLabels,
     whole::keep_whole,
 };
@@ -115,7 +116,7 @@ fn parts<P: SubgoalPlacement>(
     let most_labels = rest / size_of::<u64>();
     let labels = whole_labels(context, contracted, most_labels, &mut report(Stage::Labels), interrupt)?;
     let labels = labels.ok_or_else(more)?;
-    let packed = pack(context, &labels, interrupt)?.ok_or(SubgoalError::Labels)?;
+    let packed = pack(context, labels, interrupt)?.ok_or(SubgoalError::Labels)?;
     if packed.memory_bytes() <= rest { Ok((geometry, packed)) } else { Err(more()) }
 }
 
@@ -126,11 +127,9 @@ pub(super) fn whole_labels<P: SubgoalPlacement>(
     most: usize,
     progress: &mut dyn FnMut(usize),
     interrupt: &Interrupt,
-) -> Result<Option<Vec<Vec<Label>>>, Interrupted> {
-    let cut_off = in_cells(context);
-    let Some(mut labels) = merge(contracted, &context, cut_off, most, progress, interrupt)? else {
-        return Ok(None);
-    };
+) -> Result<Option<LabelLists>, SubgoalError> {
+    let labels = merge(contracted, &context, form(context), most, progress, interrupt)?;
+    let Some(mut labels) = labels else { return Ok(None) };
     keep_whole(&mut labels, interrupt, |from, to| context.distance(from, to))?;
     Ok(Some(labels))
 }

@@ -13,7 +13,7 @@ use mediant_moves::K;
 
 use super::{
     join::Meeting,
-    merge::Label,
+    lists::LabelLists,
     pack::{Packed, PathStep},
 };
 use crate::{
@@ -22,10 +22,10 @@ use crate::{
     subgoals::Subgoals,
 };
 
-/// Packs the labels of all subgoals, each with the first step of its path; `None` if a cost is too large.
+/// Packs the labels of all subgoals, each with the first step of its path; `None` if there are too many.
 pub(super) fn pack<P: EdgeFinder>(
     context: BuildContext<'_, P>,
-    labels: &[Vec<Label>],
+    labels: LabelLists,
     interrupt: &Interrupt,
 ) -> Result<Option<Packed>, Interrupted> {
     let Some(packed) = Packed::new(context, labels, interrupt)? else { return Ok(None) };

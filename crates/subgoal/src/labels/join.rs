@@ -215,6 +215,35 @@ impl Join {
     }
 }
 
+impl Join {
+    /// Visits ways from an end to hubs, with their costs; `visit` returns what a way may cost from then on.
+    /// Hubs to which several ways lead come several times.
+    pub(super) fn visit_ways<P: SubgoalPlacement>(
+        &mut self,
+        index: &HubLabels<P>,
+        space: &FreeSpace<P>,
+        end: Vertex,
+        mut visit: impl FnMut(u32, u64) -> u64,
+    ) {
+        let Self { ends: [candidates, _], .. } = self;
+        candidates.find(index, space, end);
+        let leading = candidates.find_leading(index);
+        let mut most = u64::MAX;
+        for (slot, step) in candidates.slots[..candidates.count].iter().zip(&candidates.steps) {
+            let cost = step.cost(index);
+            if cost <= most {
+                most = visit(slot / P::SIDES, cost);
+            }
+        }
+        for &i in &candidates.leading[..leading] {
+            let (slot, step) = (candidates.slots[i as usize], candidates.steps[i as usize]);
+            if step.cost(index) <= most {
+                index.visit(slot, step, |hub, cost| most = visit(hub, cost));
+            }
+        }
+    }
+}
+
 /// At least a cost, in cells.
 #[inline]
 fn above(cost: Cost) -> f32 {

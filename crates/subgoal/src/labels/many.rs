@@ -1,10 +1,14 @@
 //! Distances to many goals at once.
+//!
+//! **The nearest goal.** Of each hub's goals only the nearest counts, and subgoals further away than the best
+//! goal so far lead to no nearer one. Goals in sight of the start are found by their place, no further away
+//! than that goal.
 
-use mediant_grid::{FreeSpace, Identity, Vertex};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Vertex, uninterrupted};
 use mediant_moves::Cost;
 use mediant_search::{End, QueryError};
 
-use super::{HubLabels, join::Join};
+use super::{HubLabels, join::Join, near::Strips};
 use crate::{edge_path::direct_path, placement::SubgoalPlacement};
 
 /// Goals that many starts ask for: the hubs of each, sorted by hub. Made by [`HubLabels::goals`].
@@ -12,6 +16,7 @@ use crate::{edge_path::direct_path, placement::SubgoalPlacement};
 pub struct Goals {
     identity: Identity,
     goals: Vec<Vertex>,
+    strips: Strips,
     /// By hub, the number of its first entry.
     first: Vec<u32>,
     /// The cost from the hub to a goal, and the number of the goal; of each hub from the nearest goal on.
@@ -33,6 +38,30 @@ impl Goals {
     }
 }
 
+/// Why a call over many goals has no result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GoalsError {
+    /// An end is wrong, or the goals are others.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// It was stopped.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
+}
+
+/// The result of work that nothing stops.
+pub(super) fn unstopped<T>(work: impl FnOnce(&Interrupt) -> Result<T, GoalsError>) -> Result<T, QueryError> {
+    uninterrupted(|never| match work(never) {
+        Ok(done) => Ok(Ok(done)),
+        Err(GoalsError::Query(error)) => Ok(Err(error)),
+        Err(GoalsError::Interrupted(stopped)) => Err(stopped),
+    })
+}
+
+/// The stages that interrupted calls name.
+const PREPARING: &str = "preparing goals";
+pub(super) const FINDING: &str = "finding distances to goals";
+
 impl<P: SubgoalPlacement> HubLabels<P> {
     /// Prepares goals that many starts ask for. This takes about two queries for each goal.
     ///
@@ -44,23 +73,41 @@ impl<P: SubgoalPlacement> HubLabels<P> {
         space: &FreeSpace<P>,
         goals: impl IntoIterator<Item = Vertex>,
     ) -> Result<Goals, QueryError> {
+        unstopped(|never| self.goals_interruptible(space, goals, never))
+    }
+
+    /// [`goals`](Self::goals), which an interrupt can stop; it asks for each goal.
+    ///
+    /// # Errors
+    /// As for [`goals`](Self::goals), and [`GoalsError::Interrupted`].
+    pub fn goals_interruptible(
+        &self,
+        space: &FreeSpace<P>,
+        goals: impl IntoIterator<Item = Vertex>,
+        interrupt: &Interrupt,
+    ) -> Result<Goals, GoalsError> {
         self.check(space).map_err(|_| QueryError::OtherGoals)?;
         let goals: Vec<Vertex> = goals.into_iter().collect();
         let mut join = Join::new(self);
         let (mut hubs, mut all) = (Vec::new(), Vec::new());
         for (&goal, number) in goals.iter().zip(0..) {
+            interrupt.check(PREPARING)?;
             End::Goal.check(space, goal)?;
             join.hubs_of(self, space, goal, &mut hubs);
             all.extend(hubs.iter().map(|&(hub, cost)| (hub, cost, number)));
         }
-        let (first, entries) = by_hub(&all, self.subgoals());
-        Ok(Goals { identity: self.identity, goals, first, entries })
+        let (first, entries) = by_hub(&all, self.subgoals(), interrupt)?;
+        Ok(Goals { identity: self.identity, strips: Strips::new(&goals), goals, first, entries })
     }
 }
 
+/// By hub the number of its first entry, and the entries: a cost and a goal.
+type ByHub = (Vec<u32>, Vec<(u64, u32)>);
+
 /// The entries (hub, cost, goal) sorted by hub, those of each hub by their cost: by hub the number of its
 /// first entry, and the entries without the hub.
-fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
+fn by_hub(all: &[(u32, u64, u32)], hubs: usize, interrupt: &Interrupt) -> Result<ByHub, Interrupted> {
+    const PIECE: usize = 1 << 16;
     let mut first = vec![0_u32; hubs + 1];
     for &(hub, ..) in all {
         first[hub as usize + 1] += 1;
@@ -69,42 +116,50 @@ fn by_hub(all: &[(u32, u64, u32)], hubs: usize) -> (Vec<u32>, Vec<(u64, u32)>) {
         first[hub + 1] += first[hub];
     }
     let (mut next, mut entries) = (first.clone(), vec![(0, 0); all.len()]);
-    for &(hub, cost, goal) in all {
+    for (number, &(hub, cost, goal)) in all.iter().enumerate() {
+        interrupt.check_every(PIECE, number, PREPARING)?;
         entries[next[hub as usize] as usize] = (cost, goal);
         next[hub as usize] += 1;
     }
-    for ends in first.windows(2) {
+    for (number, ends) in first.windows(2).enumerate() {
+        interrupt.check_every(1 << 6, number, PREPARING)?;
         entries[ends[0] as usize..ends[1] as usize].sort_unstable();
     }
-    (first, entries)
+    Ok((first, entries))
 }
 
 /// By how much the cost of a path at any angle may be off: less than 1 is cut off for each of two lines and
 /// labels.
 pub(super) const ROUNDED: u64 = 4;
 
+/// The goals between two questions of the interrupt: some microseconds.
+const LONG: usize = 1 << 10;
+
+/// Cells that are further than any two vertices are apart: all goals are near.
+const FAR: i32 = 1 << 17;
+
 /// Scratch memory for distances to many goals.
 #[derive(Debug, Default)]
 pub(super) struct ToMany {
+    /// Of the last start: each hub once, or, of the nearest goal, all ways to hubs that may lead there.
     hubs: Vec<(u32, u64)>,
+    /// Goals near the start.
+    near: Vec<u32>,
     waypoints: Vec<Vertex>,
 }
 
 impl ToMany {
-    /// Finds the hubs of a start.
-    fn start<P: SubgoalPlacement>(
-        &mut self,
+    /// Checks a start.
+    fn check<P: SubgoalPlacement>(
         (labels, space): (&HubLabels<P>, &FreeSpace<P>),
-        join: &mut Join,
         start: Vertex,
         goals: &Goals,
     ) -> Result<(), QueryError> {
-        if goals.identity != labels.identity {
-            return Err(QueryError::OtherGoals);
+        if goals.identity == labels.identity {
+            End::Start.check(space, start)
+        } else {
+            Err(QueryError::OtherGoals)
         }
-        End::Start.check(space, start)?;
-        join.hubs_of(labels, space, start, &mut self.hubs);
-        Ok(())
     }
 
     /// Writes the distance from a start to each goal.
@@ -112,21 +167,29 @@ impl ToMany {
         &mut self,
         index: (&HubLabels<P>, &FreeSpace<P>),
         join: &mut Join,
-        start: Vertex,
-        goals: &Goals,
+        (start, goals): (Vertex, &Goals),
         distances: &mut Vec<Option<Cost>>,
-    ) -> Result<(), QueryError> {
-        self.start(index, join, start, goals)?;
+        interrupt: &Interrupt,
+    ) -> Result<(), GoalsError> {
+        Self::check(index, start, goals)?;
+        interrupt.check(FINDING)?;
+        join.hubs_of(index.0, index.1, start, &mut self.hubs);
         distances.clear();
         distances.resize(goals.goals.len(), None);
         for &(hub, cost) in &self.hubs {
-            for &(rest, goal) in goals.over(hub) {
+            let over = goals.over(hub);
+            // Many hubs have few goals, and a few have nearly all.
+            if over.len() > LONG {
+                interrupt.check(FINDING)?;
+            }
+            for &(rest, goal) in over {
                 let sum = Cost::from_bits(cost + rest);
                 let known = &mut distances[goal as usize];
                 *known = Some(known.map_or(sum, |known| known.min(sum)));
             }
         }
-        for (&goal, known) in goals.goals.iter().zip(distances) {
+        for (number, (&goal, known)) in goals.goals.iter().zip(distances).enumerate() {
+            interrupt.check_every(LONG, number, FINDING)?;
             if let Some(cost) = self.direct(index, [start, goal], *known) {
                 *known = Some(cost);
             }
@@ -139,16 +202,31 @@ impl ToMany {
         &mut self,
         index: (&HubLabels<P>, &FreeSpace<P>),
         join: &mut Join,
-        start: Vertex,
-        goals: &Goals,
-    ) -> Result<Option<(usize, Cost)>, QueryError> {
-        self.start(index, join, start, goals)?;
-        let over = |&(hub, cost): &(u32, u64)| {
-            let &(rest, goal) = goals.over(hub).first()?;
-            Some((Cost::from_bits(cost + rest), goal))
-        };
-        let mut best = self.hubs.iter().filter_map(over).min();
-        for (&goal, number) in goals.goals.iter().zip(0..) {
+        (start, goals): (Vertex, &Goals),
+        interrupt: &Interrupt,
+    ) -> Result<Option<(usize, Cost)>, GoalsError> {
+        Self::check(index, start, goals)?;
+        interrupt.check(FINDING)?;
+        let (mut best, mut most, ways) = (None, u64::MAX, &mut self.hubs);
+        ways.clear();
+        join.visit_ways(index.0, index.1, start, |hub, cost| {
+            if let Some(&(rest, goal)) = goals.over(hub).first()
+                && cost + rest <= most
+            {
+                ways.push((hub, cost));
+                let sum = (Cost::from_bits(cost + rest), goal);
+                if best.is_none_or(|best| sum < best) {
+                    best = Some(sum);
+                    // Ways to goals that are as near, whose own costs are rounded, too.
+                    most = cost + rest + 4 * ROUNDED;
+                }
+            }
+            most
+        });
+        let goals_near = self.take_near(start, goals, best.map(|(cost, _)| cost));
+        for (turn, &number) in goals_near.iter().enumerate() {
+            interrupt.check_every(LONG, turn + 1, FINDING)?;
+            let goal = goals.goals[number as usize];
             if let Some(cost) = self.direct(index, [start, goal], best.map(|(cost, _)| cost)) {
                 // Costs summed over subgoals on the line may be cut off, so the line replaces its own sum.
                 best = match best {
@@ -158,7 +236,24 @@ impl ToMany {
                 };
             }
         }
+        self.near = goals_near;
         Ok(best.map(|(cost, goal)| (goal as usize, cost)))
+    }
+
+    /// The numbers of the goals that a direct path may join at no more than a cost, up to rounding, in order;
+    /// the list is to be given back.
+    fn take_near(&mut self, start: Vertex, goals: &Goals, cost: Option<Cost>) -> Vec<u32> {
+        let mut near = std::mem::take(&mut self.near);
+        // No path is shorter than the straight line.
+        let cells = cost.map(|cost| (cost.to_bits() >> Cost::FRACTION_BITS) + 2);
+        match cells.and_then(|cells| i32::try_from(cells).ok()).filter(|&cells| cells < FAR) {
+            Some(cells) => goals.strips.near(start, cells, &mut near),
+            None => {
+                near.clear();
+                near.extend(0..goals.goals.len() as u32);
+            }
+        }
+        near
     }
 
     /// The goals whose costs differ from that of the nearest goal by no more than both are rounded, in their
@@ -177,13 +272,16 @@ impl ToMany {
             let sums = goals.over(hub).iter().map(|&(rest, goal)| (goal, Cost::from_bits(cost + rest)));
             found.extend(sums.take_while(|&(_, sum)| sum <= most));
         }
-        for (&goal, number) in goals.goals.iter().zip(0..) {
+        let near = self.take_near(start, goals, Some(most));
+        for &number in &near {
             // A direct path costs no more than what was summed up over subgoals on the line.
+            let goal = goals.goals[number as usize];
             if let Some(cost) = self.direct(index, [start, goal], Some(most)).filter(|&cost| cost <= most) {
                 found.retain(|&(other, _)| other != number);
                 found.push((number, cost));
             }
         }
+        self.near = near;
         found.sort_unstable();
         found.dedup_by_key(|&mut (goal, _)| goal);
     }

@@ -10,14 +10,19 @@
 //! A path that bends at the subgoal above as no shortest path does is left out: m is found without.
 //!
 //! **Fast.** Most of the time goes into the test whether another hub is between. It adds costs in 64 bits,
-//! cut off at 2⁻³² cells; only sums that could be as small are added again as they are.
+//! cut off at 2⁻³² cells; only sums that could be as small are added again as they are. A list of labels is
+//! in the order of their costs, and those that cost more than the way to the hub are not looked at.
 //!
 //! **Order.** A level of the hierarchy depends on those above it alone. Its subgoals are merged on all cores,
 //! with the same result.
 
 use mediant_grid::{Interrupt, Interrupted};
 
-use crate::contract::{ContractedGraph, SubgoalGeometry};
+use super::lists::{Form, LabelLists};
+use crate::{
+    contract::{ContractedGraph, SubgoalGeometry},
+    error::SubgoalError,
+};
 
 /// The stage that an interrupted call names.
 const DURING: &str = "finding hub labels";
@@ -43,32 +48,34 @@ impl Label {
     }
 }
 
-/// Cuts off what a cost of the contraction has below 2⁻³² cells.
-pub(super) type CutOff = fn(u128) -> u64;
-
-/// The labels of all subgoals, sorted by hub; no subgoal is its own hub. `None` if the contraction left a
-/// core, or if there are more than `most` labels. `progress` is told how many subgoals have theirs.
+/// The labels of all subgoals, each subgoal's in the order of their costs; no subgoal is its own hub. `None`
+/// if the contraction left a core, or if there are more than `most` labels. `progress` is told how many
+/// subgoals have theirs.
+///
+/// # Errors
+/// [`SubgoalError::Labels`] if a cost is too large; [`SubgoalError::Interrupted`].
 pub(super) fn merge(
     graph: &ContractedGraph,
     geometry: &(impl SubgoalGeometry + Sync),
-    cut_off: CutOff,
+    form: Form,
     most: usize,
     progress: &mut dyn FnMut(usize),
     interrupt: &Interrupt,
-) -> Result<Option<Vec<Vec<Label>>>, Interrupted> {
+) -> Result<Option<LabelLists>, SubgoalError> {
     if graph.contracted.contains(&false) {
         return Ok(None);
     }
-    let mut labels: Vec<Vec<Label>> = vec![Vec::new(); graph.arcs.len()];
-    let mut pool = Pool { count: graph.arcs.len(), cut_off, free: Vec::new() };
+    let mut labels = LabelLists::new(graph.arcs.len(), form);
+    let mut pool = Pool { count: graph.arcs.len(), free: Vec::new() };
     let (mut total, mut done) = (0, 0);
     for level in levels(graph, interrupt)? {
         // So that there are never many more than that.
         for part in level.chunks(PART) {
-            let made = pool.merge(part, (graph, geometry), &labels, interrupt)?;
-            for (&id, own) in part.iter().zip(made) {
-                total += own.len();
-                labels[id as usize] = own;
+            let threads = pool.merge(part, (graph, geometry), &labels, interrupt)?;
+            for (turn, &id) in part.iter().enumerate() {
+                let own = pool.free[turn % threads].made.list(turn / threads);
+                total += own[0].len();
+                labels.add(id, own);
             }
             if total > most {
                 return Ok(None);
@@ -81,7 +88,7 @@ pub(super) fn merge(
 }
 
 /// The subgoals that are merged at a time.
-const PART: usize = 1 << 14;
+const PART: usize = 1 << 12;
 
 /// The subgoals by the length of the longest way up from them, in the order of their numbers.
 fn levels(graph: &ContractedGraph, interrupt: &Interrupt) -> Result<Vec<Vec<u32>>, Interrupted> {
@@ -122,66 +129,115 @@ fn levels(graph: &ContractedGraph, interrupt: &Interrupt) -> Result<Vec<Vec<u32>
 /// Scratch memory of all threads.
 struct Pool {
     count: usize,
-    cut_off: CutOff,
     free: Vec<Scratch>,
 }
 
 impl Pool {
-    /// The labels of some subgoals of one level.
-    #[cfg(feature = "parallel")]
+    /// Makes the labels of some subgoals of one level. They are left to several threads in turn, as many as
+    /// it returns: the subgoals of one level differ much in their work.
     fn merge<G: SubgoalGeometry + Sync>(
         &mut self,
         part: &[u32],
         graph: (&ContractedGraph, &G),
-        labels: &[Vec<Label>],
+        labels: &LabelLists,
         interrupt: &Interrupt,
-    ) -> Result<Vec<Vec<Label>>, Interrupted> {
-        use rayon::prelude::*;
-        /// Subgoals for which waking another thread pays.
-        const LEAST: usize = 64;
-        let cut_off = self.cut_off;
-        let threads = rayon::current_num_threads().min(part.len().div_ceil(LEAST)).max(1);
+    ) -> Result<usize, SubgoalError> {
+        let threads = threads(part.len());
         self.free.resize_with(self.free.len().max(threads), || Scratch::new(self.count));
-        // Small pieces in turn: the subgoals of one level differ much in their work.
-        let made = self.free[..threads]
-            .par_iter_mut()
-            .enumerate()
-            .map(|(thread, scratch)| {
-                let own = part.iter().skip(thread).step_by(threads);
-                own.map(|&id| scratch.merge(id, graph, labels, (cut_off, interrupt))).collect()
-            })
-            .collect::<Result<Vec<Vec<Vec<Label>>>, _>>()?;
-        let mut turns: Vec<_> = made.into_iter().map(Vec::into_iter).collect();
-        Ok((0..part.len()).filter_map(|i| turns[i % threads].next()).collect())
-    }
-
-    #[cfg(not(feature = "parallel"))]
-    fn merge<G: SubgoalGeometry + Sync>(
-        &mut self,
-        part: &[u32],
-        graph: (&ContractedGraph, &G),
-        labels: &[Vec<Label>],
-        interrupt: &Interrupt,
-    ) -> Result<Vec<Vec<Label>>, Interrupted> {
-        let cut_off = self.cut_off;
-        if self.free.is_empty() {
-            self.free.push(Scratch::new(self.count));
+        let work = |(thread, scratch): (usize, &mut Scratch)| {
+            scratch.made.clear();
+            let mut own = part.iter().skip(thread).step_by(threads);
+            own.try_for_each(|&id| scratch.merge(id, graph, labels, interrupt))
+        };
+        #[cfg(feature = "parallel")]
+        if threads > 1 {
+            use rayon::prelude::*;
+            self.free[..threads].par_iter_mut().enumerate().try_for_each(work)?;
+            return Ok(threads);
         }
-        let scratch = self.free.iter_mut().take(1);
-        scratch
-            .flat_map(|scratch| part.iter().map(|&id| scratch.merge(id, graph, labels, (cut_off, interrupt))))
-            .collect()
+        self.free[..threads].iter_mut().enumerate().try_for_each(work)?;
+        Ok(threads)
     }
+}
+
+/// The threads for so many subgoals.
+#[cfg(feature = "parallel")]
+fn threads(subgoals: usize) -> usize {
+    /// Subgoals for which waking another thread pays.
+    const LEAST: usize = 64;
+    rayon::current_num_threads().min(subgoals.div_ceil(LEAST)).max(1)
+}
+
+#[cfg(not(feature = "parallel"))]
+const fn threads(_: usize) -> usize {
+    1
 }
 
 /// Scratch memory of a merge.
 struct Scratch {
-    /// By hub, the cost of the best known way to it, cut off; the largest number if there is none.
+    /// By hub, the part that is kept of the cost of the best known way to it; the largest number if there is
+    /// none.
     rough: Vec<u64>,
     /// The same as it is, and the next subgoal on the way.
     best: Vec<(u128, u32)>,
     /// The hubs with a known way.
     hubs: Vec<u32>,
+    /// These as first words of labels.
+    sorted: Vec<u64>,
+    allowed: Allowed,
+    made: Made,
+}
+
+/// The labels that a thread made.
+#[derive(Default)]
+struct Made {
+    /// Of each subgoal, the number of the label after its last one.
+    ends: Vec<usize>,
+    words: [Vec<u64>; 2],
+}
+
+impl Made {
+    fn clear(&mut self) {
+        self.ends.clear();
+        self.words.iter_mut().for_each(Vec::clear);
+    }
+
+    fn push(&mut self, words: [u64; 2]) {
+        self.words.iter_mut().zip(words).for_each(|(all, word)| all.push(word));
+    }
+
+    /// The words of the labels of one subgoal.
+    fn list(&self, number: usize) -> [&[u64]; 2] {
+        let first = number.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.words.each_ref().map(|words| &words[first..self.ends[number]])
+    }
+}
+
+/// By which edges paths may leave a subgoal. Few edges have many labels.
+struct Allowed {
+    /// By the subgoal to which the edge leads: the number of the last question, and its answer.
+    known: Vec<(u32, bool)>,
+    question: u32,
+}
+
+impl Allowed {
+    /// Begins with another arrival.
+    fn start(&mut self) {
+        self.question = self.question.wrapping_add(1);
+        if self.question == 0 {
+            self.known.fill((0, false));
+            self.question = 1;
+        }
+    }
+
+    #[inline]
+    fn ask(&mut self, next: u32, is_allowed: impl FnOnce() -> bool) -> bool {
+        let known = &mut self.known[next as usize];
+        if known.0 != self.question {
+            *known = (self.question, is_allowed());
+        }
+        known.1
+    }
 }
 
 /// The cost of what has no known way: no sum with it overflows.
@@ -189,61 +245,87 @@ const NEVER: u64 = u64::MAX / 2;
 
 impl Scratch {
     fn new(count: usize) -> Self {
-        Self { rough: vec![NEVER; count], best: vec![(0, 0); count], hubs: Vec::new() }
+        let (rough, best) = (vec![NEVER; count], vec![(0, 0); count]);
+        let allowed = Allowed { known: vec![(0, false); count], question: 0 };
+        Self { rough, best, hubs: Vec::new(), sorted: Vec::new(), allowed, made: Made::default() }
     }
 
-    /// The labels of a subgoal, from those of the subgoals above it.
+    /// Makes the labels of a subgoal, from those of the subgoals above it.
     fn merge<G: SubgoalGeometry>(
         &mut self,
         id: u32,
         (graph, geometry): (&ContractedGraph, &G),
-        labels: &[Vec<Label>],
-        (cut_off, interrupt): (CutOff, &Interrupt),
-    ) -> Result<Vec<Label>, Interrupted> {
+        labels: &LabelLists,
+        interrupt: &Interrupt,
+    ) -> Result<(), SubgoalError> {
         interrupt.check(DURING)?;
-        let Self { rough, best, hubs } = self;
+        self.reach(id, (graph, geometry), labels);
+        let Self { rough, best, hubs, sorted, made, .. } = self;
+        let form = labels.form;
+        sorted.clear();
+        sorted.extend(hubs.iter().map(|&hub| form.first_word(hub, rough[hub as usize])));
+        sorted.sort_unstable();
+        for &word in &*sorted {
+            let hub = form.id(word);
+            let (cost, next) = best[hub as usize];
+            // Cutting off takes less than 1 from each of the three.
+            let most = rough[hub as usize] + 1;
+            let above = labels.of(hub);
+            let cheap = above.words[0].iter().take_while(|&&word| form.part(word) <= most);
+            let is_between = |(number, &word): (usize, &u64)| {
+                let way = form.id(word) as usize;
+                rough[way] + form.part(word) <= most && best[way].0 + above.get(number).cost() <= cost
+            };
+            if !cheap.enumerate().any(is_between) {
+                let label = Label::new(hub, next, cost);
+                made.push(form.words(label).ok_or(SubgoalError::Labels)?);
+            }
+        }
+        made.ends.push(made.words[0].len());
+        for hub in hubs.drain(..) {
+            rough[hub as usize] = NEVER;
+        }
+        Ok(())
+    }
+
+    /// Finds the best ways from a subgoal to the hubs of those above it.
+    fn reach<G: SubgoalGeometry>(
+        &mut self,
+        id: u32,
+        (graph, geometry): (&ContractedGraph, &G),
+        labels: &LabelLists,
+    ) {
+        let Self { rough, best, hubs, allowed, .. } = self;
+        let form = labels.form;
         let mut reach = |hub: u32, cost: u128, next: u32| {
             let (rough, known) = (&mut rough[hub as usize], &mut best[hub as usize]);
+            let kept = form.kept(cost);
+            if kept > *rough {
+                return;
+            }
             if *rough == NEVER {
                 hubs.push(hub);
             } else if *known <= (cost, next) {
                 return;
             }
-            (*rough, *known) = (cut_off(cost), (cost, next));
+            (*rough, *known) = (kept, (cost, next));
         };
         for arc in &graph.arcs[id as usize] {
             reach(arc.to, arc.cost, arc.first);
             let at = geometry.vertex(arc.to);
             let departures =
                 geometry.bends(arc.to).map(|bends| bends.after(geometry.vertex(arc.last).to(at)));
-            // Often the label before began with the same edge.
-            let mut looked_at = (u32::MAX, false);
-            for label in &labels[arc.to as usize] {
-                if label.next != looked_at.0 {
-                    let edge = at.to(geometry.vertex(label.next));
-                    looked_at = (label.next, departures.is_none_or(|departures| departures.allows(edge)));
-                }
-                if looked_at.1 {
-                    reach(label.hub, arc.cost + label.cost(), arc.first);
+            allowed.start();
+            let above = labels.of(arc.to);
+            let [kept, rest] = above.words;
+            for (&kept, &rest) in kept.iter().zip(rest) {
+                let edge = || at.to(geometry.vertex(form.id(rest)));
+                if departures
+                    .is_none_or(|departures| allowed.ask(form.id(rest), || departures.allows(edge())))
+                {
+                    reach(form.id(kept), arc.cost + form.cost([kept, rest]), arc.first);
                 }
             }
         }
-        hubs.sort_unstable();
-        let needed = |&hub: &u32| {
-            let (cost, next) = best[hub as usize];
-            // Cutting off takes less than 1 from each of the three.
-            let most = cut_off(cost) + 1;
-            let is_between = |label: &Label| {
-                let way = label.hub as usize;
-                rough[way] + cut_off(label.cost()) <= most && best[way].0 + label.cost() <= cost
-            };
-            let is_needed = !labels[hub as usize].iter().any(is_between);
-            is_needed.then(|| Label::new(hub, next, cost))
-        };
-        let own = hubs.iter().filter_map(needed).collect();
-        for hub in hubs.drain(..) {
-            rough[hub as usize] = NEVER;
-        }
-        Ok(own)
     }
 }

@@ -45,8 +45,10 @@ mod chain;
 mod codec;
 mod join;
 mod lines;
+mod lists;
 mod many;
 mod merge;
+mod near;
 mod pack;
 mod planner;
 mod reader;
@@ -62,7 +64,10 @@ use mediant_moves::K;
 use mediant_search::parts::{HasFreeSpace, Metric};
 
 pub(crate) use self::reader::LabelReader;
-pub use self::{many::Goals, planner::HubLabelSearch};
+pub use self::{
+    many::{Goals, GoalsError},
+    planner::HubLabelSearch,
+};
 use self::{
     pack::Packed,
     vertices::{OfVertex, VertexLabels},

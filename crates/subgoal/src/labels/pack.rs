@@ -3,7 +3,7 @@
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex};
 use mediant_moves::K;
 
-use super::merge::{CutOff, Label};
+use super::lists::{Form, LabelLists};
 use crate::{
     parts::{Reader, Writer},
     placement::{BuildContext, EdgeCriterion, EdgeFinder},
@@ -135,17 +135,20 @@ pub(crate) struct Packed {
     pub(crate) cost_bits: u32,
 }
 
+/// The stage that an interrupted call names.
+const DURING: &str = "packing hub labels";
+
 /// The costs of paths take at most this many bits, so that a search can use those above.
 pub(super) const MOST_COST_BITS: u32 = 56;
 
 /// The bits that remain for costs where this many hubs are numbered.
-fn cost_bits_of(count: usize) -> u32 {
+pub(super) fn cost_bits_of(count: usize) -> u32 {
     (count.max(2) as u32 - 1).leading_zeros() + (u64::BITS - u32::BITS)
 }
 
 /// The largest cost in so many bits.
-fn most_cost(cost_bits: u32) -> u64 {
-    (1 << cost_bits.min(MOST_COST_BITS)) - 1
+pub(super) const fn most_cost(cost_bits: u32) -> u64 {
+    (1 << if cost_bits < MOST_COST_BITS { cost_bits } else { MOST_COST_BITS }) - 1
 }
 
 /// Whether a label is one of so many hubs.
@@ -154,56 +157,49 @@ fn holds(count: usize, cost_bits: u32, label: u64) -> bool {
 }
 
 impl Packed {
-    /// Packs the labels of all subgoals, without the steps; `None` if a cost is too large.
+    /// Packs the labels of all subgoals, without the steps; `None` if there are too many.
     pub(super) fn new<P: EdgeFinder>(
         context: BuildContext<'_, P>,
-        labels: &[Vec<Label>],
+        mut labels: LabelLists,
         interrupt: &Interrupt,
     ) -> Result<Option<Self>, Interrupted> {
         let cost_bits = cost_bits_of(labels.len());
-        let (most, cost_of) = (most_cost(cost_bits), in_cells(context));
-        let total = labels.iter().map(Vec::len).sum();
+        arrange(context, &mut labels, interrupt)?;
         let mut sides = Vec::with_capacity(labels.len() * P::SIDES as usize + 1);
         let mut groups = vec![Group::BEFORE];
-        let mut packed = Vec::with_capacity(total);
-        let mut sorted = Vec::new();
-        for (own, id) in labels.iter().zip(0_u32..) {
-            interrupt.check_every(64, id as usize, "packing hub labels")?;
+        let mut end = 0;
+        for id in 0..labels.len() as u32 {
+            interrupt.check_every(64, id as usize, DURING)?;
             let at = context.subgoals.vertex(id);
-            sorted.clear();
-            sorted.extend(own.iter().map(|label| {
-                let edge = at.to(context.subgoals.vertex(label.next));
-                (P::side(context.space, at, edge), edge, label)
-            }));
-            sorted.sort_unstable_by(|((side, slope), _, label), ((other_side, other), _, other_label)| {
-                side.cmp(other_side)
-                    .then(slope.total_cmp(other))
-                    .then((label.next, label.hub).cmp(&(other_label.next, other_label.hub)))
-            });
+            let next = |&word: &u64| labels.form.id(word);
+            let [_, words] = labels.of(id).words;
+            let mut same = words.chunk_by(|a, b| next(a) == next(b)).peekable();
             for side in 0..P::SIDES {
                 let first = groups.len();
-                let begin = sorted.partition_point(|&((other, _), ..)| other < side);
-                let end = sorted.partition_point(|&((other, _), ..)| other <= side);
-                for same in sorted[begin..end].chunk_by(|(.., a), (.., b)| a.next == b.next) {
-                    for (.., label) in same {
-                        let cost = cost_of(label.cost());
-                        if cost > most {
-                            return Ok(None);
-                        }
-                        packed.push(u64::from(label.hub) << cost_bits | cost);
-                    }
-                    let group = same
-                        .first()
-                        .and_then(|(_, edge, label)| Group::new(label.next, P::class(*edge), packed.len()));
-                    let Some(group) = group else { return Ok(None) };
+                while let Some(words) = same.next_if(|words| {
+                    let edge = at.to(context.subgoals.vertex(next(&words[0])));
+                    P::side(context.space, at, edge).0 == side
+                }) {
+                    let to = next(&words[0]);
+                    end += words.len();
+                    let class = P::class(at.to(context.subgoals.vertex(to)));
+                    let Some(group) = Group::new(to, class, end) else { return Ok(None) };
                     groups.push(group);
                 }
-                let edges = sorted[begin..end].iter().map(|&(_, edge, _)| edge);
+                let edges = groups[first..].iter().map(|group| at.to(context.subgoals.vertex(group.to)));
                 let Some(side) = Side::new(context.space, first, (at, side), edges) else { return Ok(None) };
                 sides.push(side);
             }
         }
         sides.push(Side::last(groups.len()));
+        // Less memory before more is taken.
+        let words = labels.into_first_words();
+        let mut packed = Vec::with_capacity(end);
+        for (own, id) in words.iter().zip(0..) {
+            interrupt.check_every(64, id, DURING)?;
+            packed.extend(own.iter().map(|&word| words.form.packed(word)));
+        }
+        drop(words);
         let (sides, groups, labels) = (sides.into(), groups.into(), packed.into());
         Ok(Some(Self { sides, groups, labels, steps: Box::default(), cost_bits }))
     }
@@ -314,11 +310,45 @@ impl Packed {
     }
 }
 
-/// Cuts the contraction's cost off to units of [`Cost`](mediant_moves::Cost).
-pub(super) fn in_cells<P: EdgeFinder>(context: BuildContext<'_, P>) -> CutOff {
-    match (context.criterion, context.k) {
-        (EdgeCriterion::Direct, _) => |cost| cost as u64,
-        (EdgeCriterion::Taut, K::Any) => |cost| (cost >> 32) as u64,
-        (EdgeCriterion::Taut, K::Finite(_)) => |cost| (cost >> 64) as u64,
-    }
+/// The form of labels, whose first words have costs in units of [`Cost`](mediant_moves::Cost).
+pub(super) fn form<P: EdgeFinder>(context: BuildContext<'_, P>) -> Form {
+    let rest_bits = match (context.criterion, context.k) {
+        (EdgeCriterion::Direct, _) => 0,
+        (EdgeCriterion::Taut, K::Any) => 32,
+        (EdgeCriterion::Taut, K::Finite(_)) => 64,
+    };
+    Form::new(context.subgoals.len(), rest_bits)
+}
+
+/// Sorts the labels of each subgoal by the edges with which their paths begin, then by hub.
+fn arrange<P: EdgeFinder>(
+    context: BuildContext<'_, P>,
+    labels: &mut LabelLists,
+    interrupt: &Interrupt,
+) -> Result<(), Interrupted> {
+    let form = labels.form;
+    let scratch = || (Vec::new(), Vec::new());
+    labels.arrange(scratch, |(sorted, edges), id, [kept, rest]| {
+        interrupt.check(DURING)?;
+        let at = context.subgoals.vertex(id);
+        sorted.clear();
+        sorted.extend(kept.iter().zip(&*rest).map(|(&kept, &rest)| (form.id(rest), form.packed(kept), rest)));
+        sorted.sort_unstable();
+        edges.clear();
+        let mut end = 0;
+        for same in sorted.chunk_by(|(a, ..), (b, ..)| a == b) {
+            let (next, first) = (same[0].0, end);
+            end += same.len();
+            let (side, slope) = P::side(context.space, at, at.to(context.subgoals.vertex(next)));
+            edges.push((side, slope, next, first..end));
+        }
+        edges.sort_unstable_by(|(side, slope, next, _), (other_side, other, other_next, _)| {
+            side.cmp(other_side).then(slope.total_cmp(other)).then(next.cmp(other_next))
+        });
+        let in_order = edges.iter().flat_map(|(.., range)| &sorted[range.clone()]);
+        for ((kept, rest), &(_, packed, way)) in kept.iter_mut().zip(rest).zip(in_order) {
+            (*kept, *rest) = (form.unpacked(packed), way);
+        }
+        Ok(())
+    })
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Deref;
 
-use mediant_grid::{Identity, Mismatch, PlacementKind, Point, Vertex};
+use mediant_grid::{Identity, Interrupt, Mismatch, PlacementKind, Point, Vertex};
 use mediant_moves::{Cost, FiniteK, K};
 use mediant_search::{
     Ends, Guarantee, Observer, Path, Planner, PointEnds, QueryError, SearchStatus,
@@ -13,7 +13,7 @@ use super::{
     HubLabels,
     chain::Chains,
     join::{Join, Meeting},
-    many::{Goals, ToMany},
+    many::{FINDING, Goals, GoalsError, ToMany, unstopped},
 };
 use crate::{
     corners::PointSight,
@@ -139,8 +139,23 @@ where
         goals: &Goals,
         distances: &mut Vec<Option<Cost>>,
     ) -> Result<(), QueryError> {
+        unstopped(|never| self.distances_interruptible(start, goals, distances, never))
+    }
+
+    /// [`distances`](Self::distances), which an interrupt can stop; it asks at first, and for some thousand
+    /// labels of goals.
+    ///
+    /// # Errors
+    /// As for [`distances`](Self::distances), and [`GoalsError::Interrupted`].
+    pub fn distances_interruptible(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        distances: &mut Vec<Option<Cost>>,
+        interrupt: &Interrupt,
+    ) -> Result<(), GoalsError> {
         let index = (&*self.labels, self.space.free_space());
-        self.to_many.distances(index, &mut self.join, start, goals, distances)
+        self.to_many.distances(index, &mut self.join, (start, goals), distances, interrupt)
     }
 
     /// The number of the nearest goal, the first of several, and its distance; `None` if there is no way to
@@ -150,14 +165,28 @@ where
     /// # Errors
     /// [`QueryError`] for a start that is blocked or outside the map.
     pub fn nearest(&mut self, start: Vertex, goals: &Goals) -> Result<Option<(usize, Cost)>, QueryError> {
+        unstopped(|never| self.nearest_interruptible(start, goals, never))
+    }
+
+    /// [`nearest`](Self::nearest), which an interrupt can stop; it asks at first, and for each goal that is
+    /// as near as the nearest.
+    ///
+    /// # Errors
+    /// As for [`nearest`](Self::nearest), and [`GoalsError::Interrupted`].
+    pub fn nearest_interruptible(
+        &mut self,
+        start: Vertex,
+        goals: &Goals,
+        interrupt: &Interrupt,
+    ) -> Result<Option<(usize, Cost)>, GoalsError> {
         let index = (&*self.labels, self.space.free_space());
-        let nearest = self.to_many.nearest(index, &mut self.join, start, goals)?;
+        let nearest = self.to_many.nearest(index, &mut self.join, (start, goals), interrupt)?;
         let Some((_, cost)) = nearest.filter(|_| self.labels.k == K::Any) else { return Ok(nearest) };
         let mut as_near = std::mem::take(&mut self.as_near);
         self.to_many.as_near(index, start, goals, cost, &mut as_near);
         let first = match as_near[..] {
             [(goal, cost)] => Ok(Some((goal, cost))),
-            _ => self.first_of(start, goals, &as_near),
+            _ => self.first_of(start, goals, &as_near, interrupt),
         };
         self.as_near = as_near;
         Ok(first?.map(|(goal, cost)| (goal as usize, cost)))
@@ -184,9 +213,11 @@ where
         start: Vertex,
         goals: &Goals,
         as_near: &[(u32, Cost)],
-    ) -> Result<Option<(u32, Cost)>, QueryError> {
+        interrupt: &Interrupt,
+    ) -> Result<Option<(u32, Cost)>, GoalsError> {
         let mut best: Option<(Cost, (u32, Cost))> = None;
         for &(goal, cost) in as_near {
+            interrupt.check(FINDING)?;
             let at = |goal: u32| goals.vertices()[goal as usize];
             if best.is_some_and(|(_, (first, _))| at(first) == at(goal)) {
                 continue;

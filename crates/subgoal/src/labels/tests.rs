@@ -4,9 +4,16 @@ use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Interrupt, Vertex, uninterrupted,
 };
 use mediant_moves::{FiniteK, K};
-use mediant_oracle::{Explicit, describe, on_all_cores, random_grid, seeds};
+use mediant_oracle::{Explicit, Rng, describe, on_all_cores, random_grid, seeds};
 
-use super::{HubLabels, build::whole_labels, join::Join, merge::Label, whole::keep_whole};
+use super::{
+    HubLabels,
+    build::whole_labels,
+    join::Join,
+    lists::{Form, LabelLists},
+    merge::Label,
+    whole::keep_whole,
+};
 use crate::{
     arc::NONE,
     build::Ground,
@@ -27,6 +34,23 @@ fn length(k: K, criterion_is_taut: bool, cost: u128) -> f64 {
 /// The numbers of pairs with a path, of those whose labels are exact, and of labels.
 type Counts = [usize; 3];
 
+/// The labels of a subgoal, as they are listed.
+fn all_of(labels: &LabelLists, id: u32) -> Vec<Label> {
+    let own = labels.of(id);
+    (0..own.words[0].len()).map(|number| own.get(number)).collect()
+}
+
+/// These labels, in the order in which they are given.
+fn listed(labels: &[Vec<Label>]) -> LabelLists {
+    let mut lists = LabelLists::new(labels.len(), Form::new(labels.len(), 0));
+    for (own, id) in labels.iter().zip(0..) {
+        let words = own.iter().map(|&label| lists.form.words(label).expect("their costs fit"));
+        let (kept, rest): (Vec<_>, Vec<_>) = words.map(|[kept, rest]| (kept, rest)).unzip();
+        lists.add(id, [&kept, &rest]);
+    }
+    lists
+}
+
 struct Merged<'t, P: SubgoalPlacement> {
     space: &'t FreeSpace<P>,
     ground: Ground<P>,
@@ -40,13 +64,17 @@ impl<'t, P: SubgoalPlacement> Merged<'t, P> {
     fn new(space: &'t FreeSpace<P>, k: K, seed: u64) -> Self {
         let never = &Interrupt::NEVER;
         let ground = Ground::new(space, k, Hierarchy::Contracted, never).expect("there is a graph");
-        let (contracted, labels) = uninterrupted(|never| {
-            let contracted = ground.contracted(space, Hierarchy::Contracted, &|_| {}, never)?;
-            let context = ground.context(space);
-            let labels = whole_labels(context, &contracted, usize::MAX, &mut |_| {}, never)?;
-            Ok((contracted, labels))
+        let contracted =
+            uninterrupted(|never| ground.contracted(space, Hierarchy::Contracted, &|_| {}, never));
+        let labels = whole_labels(ground.context(space), &contracted, usize::MAX, &mut |_| {}, never);
+        let labels = labels.expect("their costs fit").expect("there is no core");
+        let labels = (0..labels.len() as u32).map(|id| {
+            let mut own = all_of(&labels, id);
+            assert!(own.is_sorted_by_key(|label| labels.form.kept(label.cost())), "not sorted: {own:?}");
+            own.sort_by_key(|label| label.hub);
+            own
         });
-        let labels = labels.expect("there is no core");
+        let labels = labels.collect();
         Self { space, ground, contracted, labels, k, seed }
     }
 
@@ -71,7 +99,11 @@ impl<'t, P: SubgoalPlacement> Merged<'t, P> {
     fn check_paths(&self) -> usize {
         let context = self.ground.context(self.space);
         for (own, id) in self.labels.iter().zip(0..) {
-            assert!(own.windows(2).all(|two| two[0].hub < two[1].hub), "not sorted: {}", self.case(id, id));
+            assert!(
+                own.windows(2).all(|two| two[0].hub < two[1].hub),
+                "a hub comes twice: {}",
+                self.case(id, id)
+            );
             for label in own {
                 let case = || format!("{label:?}; {}", self.case(id, label.hub));
                 assert_ne!(label.hub, id, "{}", case());
@@ -198,8 +230,9 @@ fn labels_that_lead_nowhere_are_dropped_one_after_another() {
     let chain = |of_last: Option<Label>, first| {
         let mut labels = vec![vec![first], vec![label(4, 2, 30)], vec![label(4, 3, 20)], vec![], vec![]];
         labels[3].extend(of_last);
-        uninterrupted(|never| keep_whole(&mut labels, never, |_, _| 10));
-        labels.iter().map(Vec::len).collect::<Vec<_>>()
+        let mut lists = listed(&labels);
+        uninterrupted(|never| keep_whole(&mut lists, never, |_, _| 10));
+        (0..5).map(|id| all_of(&lists, id).len()).collect::<Vec<_>>()
     };
     let whole = Some(label(4, 4, 10));
     assert_eq!(chain(whole, label(4, 1, 40)), [1, 1, 1, 1, 0]);
@@ -207,6 +240,32 @@ fn labels_that_lead_nowhere_are_dropped_one_after_another() {
     assert_eq!(chain(whole, label(4, 1, 39)), [0, 1, 1, 1, 0], "it costs less than its way");
     assert_eq!(chain(None, label(4, 1, 40)), [0, 0, 0, 0, 0]);
     assert_eq!(chain(Some(label(4, 4, 11)), label(4, 1, 40)), [0, 0, 0, 1, 0]);
+}
+
+/// A label is what its words say: over N(k) the rest of a cost has 64 bits. What does not fit has no words.
+#[test]
+fn labels_are_their_words() {
+    let mut rng = Rng::new(7);
+    for rest_bits in [0, 32, 64] {
+        for count in [2, 3, 1000, 1 << 20] {
+            let form = Form::new(count, rest_bits);
+            let bits = 63 - (count - 1).ilog2();
+            for _ in 0..100 {
+                let mut below = |most: u64| rng.bits() % most;
+                let (hub, next) = (below(count as u64) as u32, below(count as u64) as u32);
+                let kept = below(1 << bits.min(56));
+                let rest = if rest_bits == 0 { 0 } else { below(1 << bits.min(rest_bits)) };
+                let label = Label::new(hub, next, u128::from(kept) << rest_bits | u128::from(rest));
+                let words = form.words(label).expect("it fits");
+                assert_eq!((form.label(words), form.kept(label.cost())), (label, kept));
+                let packed = u64::from(hub) << bits | kept;
+                assert_eq!((form.packed(words[0]), form.unpacked(packed)), (packed, words[0]));
+            }
+            let of = |cost| form.words(Label::new(1, 1, cost));
+            assert_eq!(of(1 << (rest_bits + bits.min(56))), None, "{rest_bits} {count}");
+            assert!(rest_bits < 64 || of(1 << bits).is_none(), "{count}");
+        }
+    }
 }
 
 /// Each hub of an end comes once, with the least cost.

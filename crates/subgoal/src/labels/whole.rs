@@ -12,7 +12,7 @@
 
 use mediant_grid::{Interrupt, Interrupted};
 
-use super::merge::Label;
+use super::lists::{Form, LabelLists};
 use crate::chunks::in_chunks;
 
 /// The stage that an interrupted call names.
@@ -21,74 +21,112 @@ const DURING: &str = "checking hub labels";
 /// Prunes labels whose parent chain misses the hub, or costs more than they say; `edge` is the cost of an
 /// edge.
 pub(super) fn keep_whole(
-    labels: &mut [Vec<Label>],
+    labels: &mut LabelLists,
     interrupt: &Interrupt,
     edge: impl Fn(u32, u32) -> u128 + Send + Sync,
 ) -> Result<(), Interrupted> {
-    let by_hub = ByHub::new(labels, interrupt)?;
-    let all = &*labels;
-    let dropped = in_chunks(
-        all.len(),
-        || HubChains { place: vec![0; all.len()], state: Vec::new(), chain: Vec::new() },
-        &|_| {},
-        |chains, hubs| {
-            let mut dropped = Vec::new();
-            for hub in hubs {
+    let counts = counts(labels, interrupt)?;
+    let (all, form, scratch) = (&*labels, labels.form, || HubChains::new(labels.len()));
+    let mut dropped = Vec::new();
+    // Some hubs at a time: a list of all labels by hub would take more memory than the labels.
+    let most = (labels.total() / 16).max(LEAST);
+    let mut end = 0;
+    while end < counts.len() {
+        let first = end;
+        let mut sum = 0;
+        while end < counts.len() && (end == first || sum + counts[end] as usize <= most) {
+            sum += counts[end] as usize;
+            end += 1;
+        }
+        let by_hub = ByHub::new(all, (first as u32, &counts[first..end]), interrupt)?;
+        let broken = in_chunks(end - first, scratch, &|_| {}, |chains, numbers| {
+            let mut broken = Vec::new();
+            for hub in numbers.map(|number| first as u32 + number) {
                 interrupt.check(DURING)?;
-                chains.find_broken(hub, by_hub.over(hub), all, &edge, &mut dropped);
+                chains.find_broken((hub, form), by_hub.over(hub), &edge, &mut broken);
             }
-            Ok(dropped)
-        },
-    )?;
-    let mut dropped = dropped.concat();
+            Ok(broken)
+        })?;
+        dropped.extend(broken.into_iter().flatten());
+    }
     dropped.sort_unstable();
     for of_one in dropped.chunk_by(|a, b| a.0 == b.0) {
-        let mut broken = of_one.iter().map(|&(_, number)| number).peekable();
-        let mut number = 0;
-        labels[of_one[0].0 as usize].retain(|_| {
-            let is_whole = broken.next_if_eq(&number).is_none();
-            number += 1;
-            is_whole
-        });
+        let numbers: Vec<u32> = of_one.iter().map(|&(_, number)| number).collect();
+        labels.drop_some(of_one[0].0, &numbers);
     }
     Ok(())
 }
 
+/// The labels that are listed by their hubs at a time, or more.
+const LEAST: usize = 1 << 18;
+
 /// A label by its subgoal, and its number among the labels of the subgoal.
 type Place = (u32, u32);
 
-/// The labels by their hubs.
+/// A label as it is listed by its hub: a copy, since labels of one hub lie far apart.
+#[derive(Clone, Copy, Debug, Default)]
+struct Listed {
+    place: Place,
+    words: [u64; 2],
+}
+
+/// The subgoals whose labels are looked at between two questions of the interrupt.
+const PIECE: u32 = 1 << 10;
+
+/// By hub, the number of its labels.
+fn counts(labels: &LabelLists, interrupt: &Interrupt) -> Result<Vec<u32>, Interrupted> {
+    let mut counts = vec![0_u32; labels.len()];
+    for id in 0..labels.len() as u32 {
+        interrupt.check_every(PIECE as usize, id as usize, DURING)?;
+        let [words, _] = labels.of(id).words;
+        words.iter().for_each(|&word| counts[labels.form.id(word) as usize] += 1);
+    }
+    Ok(counts)
+}
+
+/// The labels of some hubs.
 struct ByHub {
+    /// The first of these hubs.
+    from: u32,
     first: Vec<u32>,
-    places: Vec<Place>,
+    listed: Vec<Listed>,
 }
 
 impl ByHub {
-    fn new(labels: &[Vec<Label>], interrupt: &Interrupt) -> Result<Self, Interrupted> {
-        const PIECE: usize = 1 << 10;
-        let mut first = vec![0_u32; labels.len() + 1];
-        for (number, own) in labels.iter().enumerate() {
-            interrupt.check_every(PIECE, number, DURING)?;
-            own.iter().for_each(|label| first[label.hub as usize + 1] += 1);
+    /// The labels of the hubs from one on, which have so many.
+    fn new(
+        labels: &LabelLists,
+        (from, counts): (u32, &[u32]),
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let mut first = Vec::with_capacity(counts.len() + 1);
+        let mut sum = 0;
+        first.push(sum);
+        for count in counts {
+            sum += count;
+            first.push(sum);
         }
-        for hub in 0..labels.len() {
-            first[hub + 1] += first[hub];
-        }
-        let (mut next, mut places) = (first.clone(), vec![(0, 0); first[labels.len()] as usize]);
-        for (own, id) in labels.iter().zip(0_u32..) {
-            interrupt.check_every(PIECE, id as usize, DURING)?;
-            for (label, number) in own.iter().zip(0..) {
-                let place = &mut next[label.hub as usize];
-                places[*place as usize] = (id, number);
-                *place += 1;
+        let (mut next, mut listed) = (first.clone(), vec![Listed::default(); sum as usize]);
+        for id in 0..labels.len() as u32 {
+            interrupt.check_every(PIECE as usize, id as usize, DURING)?;
+            let [kept, rest] = labels.of(id).words;
+            for (&word, number) in kept.iter().zip(0..) {
+                let hub = labels.form.id(word).wrapping_sub(from) as usize;
+                if hub < counts.len() {
+                    let at = &mut next[hub];
+                    listed[*at as usize] =
+                        Listed { place: (id, number), words: [word, rest[number as usize]] };
+                    *at += 1;
+                }
             }
         }
-        Ok(Self { first, places })
+        Ok(Self { from, first, listed })
     }
 
-    fn over(&self, hub: u32) -> &[Place] {
-        let [first, end] = [hub, hub + 1].map(|hub| self.first[hub as usize] as usize);
-        &self.places[first..end]
+    fn over(&self, hub: u32) -> &[Listed] {
+        let number = (hub - self.from) as usize;
+        let [first, end] = [self.first[number], self.first[number + 1]];
+        &self.listed[first as usize..end as usize]
     }
 }
 
@@ -103,23 +141,25 @@ struct HubChains {
 }
 
 impl HubChains {
+    fn new(count: usize) -> Self {
+        Self { place: vec![0; count], state: Vec::new(), chain: Vec::new() }
+    }
+
     /// Finds the labels of a hub that do not lead there.
     fn find_broken(
         &mut self,
-        hub: u32,
-        places: &[Place],
-        labels: &[Vec<Label>],
+        (hub, form): (u32, Form),
+        listed: &[Listed],
         edge: &impl Fn(u32, u32) -> u128,
         broken: &mut Vec<Place>,
     ) {
         let Self { place, state, chain } = self;
-        let label = |(id, number): Place| labels[id as usize][number as usize];
-        for (&(id, _), number) in places.iter().zip(1..) {
+        for (&Listed { place: (id, _), .. }, number) in listed.iter().zip(1..) {
             place[id as usize] = number;
         }
         state.clear();
-        state.resize(places.len(), None);
-        for number in 0..places.len() {
+        state.resize(listed.len(), None);
+        for number in 0..listed.len() {
             chain.clear();
             let mut at = number;
             // Costs descend along the chain, so it ends.
@@ -128,21 +168,20 @@ impl HubChains {
                     break known;
                 }
                 chain.push(at);
-                let (id, own) = (places[at].0, label(places[at]));
+                let (id, own) = (listed[at].place.0, form.label(listed[at].words));
                 if own.next == hub {
                     break true;
                 }
                 let Some(next) = (place[own.next as usize] as usize).checked_sub(1) else { break false };
-                if label(places[next]).cost() + edge(id, own.next) > own.cost() {
+                if form.cost(listed[next].words) + edge(id, own.next) > own.cost() {
                     break false;
                 }
                 at = next;
             };
             chain.iter().for_each(|&at| state[at] = Some(is_whole));
         }
-        broken.extend(
-            places.iter().zip(&*state).filter(|(_, state)| **state == Some(false)).map(|(at, _)| *at),
-        );
-        places.iter().for_each(|&(id, _)| place[id as usize] = 0);
+        let all = listed.iter().zip(&*state);
+        broken.extend(all.filter(|(_, state)| **state == Some(false)).map(|(label, _)| label.place));
+        listed.iter().for_each(|label| place[label.place.0 as usize] = 0);
     }
 }

@@ -1,15 +1,16 @@
 //! Building a seen index.
 
-use std::{cmp::Reverse, collections::HashMap};
+use std::{cmp::Reverse, collections::HashMap, ops::Range};
 
 use mediant_grid::{FreeSpace, Interrupt, Interrupted, Placement, PlacementKind, Vertex};
 
 use super::{
     Block, EMPTY, SIDE, SeenEntry, SeenIndex,
     cells::{CellIndex, CellSlot},
+    links::{BlockLinks, Link, ListedLink},
 };
 use crate::{
-    chunks::in_chunks,
+    chunks::{Pool, in_chunks},
     placement::{BuildContext, CellRun, EdgeFinder, VertexRun},
 };
 
@@ -17,22 +18,17 @@ use crate::{
 const DURING: &str = "finding what vertices see";
 
 /// The mask of all vertices.
-const FULL: u64 = !0;
+pub(super) const FULL: u64 = !0;
 
 /// The part of the index that may be added for what is seen from the middle of cells.
 const MOST_OF_CELLS: usize = 8;
 
-/// Which vertices of a block are joined to a slot.
-#[derive(Clone, Copy, Debug)]
-struct Link {
-    block: u32,
-    slot: u32,
-    mask: u64,
-}
+/// The subgoals whose links are found at a time, before they are written to the lists of the blocks.
+const PIECE: usize = 1 << 11;
 
 impl SeenIndex {
     /// Finds what each vertex is joined to; `None` if the index would take more than `most` bytes. Meanwhile
-    /// it takes about four times as much.
+    /// it takes about twice as much.
     pub(crate) fn new<P: EdgeFinder>(
         context: BuildContext<'_, P>,
         most: usize,
@@ -54,36 +50,28 @@ impl SeenIndex {
         let (width, height) = P::vertices(context.space.grid());
         let [columns, rows] = [width, height].map(|side| side.div_ceil(SIDE as u32));
         let count = columns as usize * rows as usize;
-        let (mut links, cells) = links(context, (columns, count), progress, interrupt)?;
         let free = free_vertices(context.space, columns, count, interrupt)?;
-        for links in &mut links {
-            interrupt.check(DURING)?;
-            for link in links {
-                let free = free[link.block as usize];
-                link.mask = if link.mask & free == free { FULL } else { link.mask & free };
-            }
-        }
-        let total: usize = links.iter().map(Vec::len).sum();
-        if size_of::<SeenEntry>() * total + size_of::<Block>() * count > most {
+        let fits = |links: usize| size_of::<SeenEntry>() * links + size_of::<Block>() * count <= most;
+        let Some((links, cells)) = links(context, (columns, &free), fits, progress, interrupt)? else {
             return Ok(None);
-        }
-        let index = Self::of_links(&links, columns, count, most_masks, interrupt)?;
+        };
+        drop(free);
+        let index = Self::of_links(&links, columns, most_masks, interrupt)?;
         drop(links);
         let cells = (P::KIND == PlacementKind::Corner).then(|| CellIndex::new(cells, height - 1));
         let cells = cells.filter(|cells| cells.memory_bytes() <= index.memory_bytes() / MOST_OF_CELLS);
         Ok(Some(Self { cells, ..index }))
     }
 
-    /// The index of links in the order of their slots.
+    /// The index of these links.
     fn of_links(
-        links: &[Vec<Link>],
+        links: &BlockLinks,
         columns: u32,
-        count: usize,
         most_masks: usize,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
-        let (masks, numbers) = dictionary(links, most_masks, interrupt)?;
-        let (blocks, entries) = entries(links, &numbers, count, interrupt)?;
+        let (masks, numbers) = dictionary(links.masks.counted(), most_masks);
+        let (blocks, entries) = entries(links, &numbers, interrupt)?;
         let most = blocks.windows(2).map(|ends| (ends[1].first - ends[0].first) as usize).max().unwrap_or(0);
         let (blocks, entries, masks) = (blocks.into(), entries.into(), masks.into());
         Ok(Self { columns, blocks, entries, masks, most, cells: None })
@@ -116,90 +104,98 @@ impl SeenIndex {
     }
 }
 
-/// The blocks and their entries: counted, then written.
+/// The blocks and their entries.
 fn entries(
-    links: &[Vec<Link>],
+    links: &BlockLinks,
     numbers: &HashMap<u64, u16>,
-    count: usize,
     interrupt: &Interrupt,
 ) -> Result<(Vec<Block>, Vec<SeenEntry>), Interrupted> {
-    let mut blocks = vec![Block::default(); count + 1];
-    // By block, one more than the last slot; 0 for none.
-    let mut last = vec![0; count];
-    for links in links {
-        interrupt.check(DURING)?;
-        for link in links {
-            let block = link.block as usize;
-            if last[block] == 0 {
-                blocks[block].slot = link.slot;
+    // By the number that a mask had when it was met.
+    let met: Vec<(u64, Option<u16>)> =
+        links.masks.all().map(|mask| (mask, numbers.get(&mask).copied())).collect();
+    let mut blocks = Vec::with_capacity(links.blocks() + 1);
+    let mut entries = Vec::with_capacity(links.total);
+    for block in 0..links.blocks() {
+        interrupt.check_every(1 << 8, block, DURING)?;
+        blocks.push(Block { first: entries.len() as u32, slot: links.first_slot(block) });
+        for ListedLink { mut after, mask } in links.of(block) {
+            let mut add = |mask: u16| entries.push(SeenEntry { after: std::mem::take(&mut after), mask });
+            match met[mask as usize] {
+                _ if mask == u32::from(EMPTY) => add(EMPTY),
+                (_, Some(number)) => add(number),
+                (mask, None) => {
+                    rows_of(mask).filter_map(|row| numbers.get(&row)).for_each(|&number| add(number));
+                }
             }
-            for_entries(link, &mut last[block], numbers, |_| blocks[block + 1].first += 1);
         }
     }
-    for block in 0..count {
-        blocks[block + 1].first += blocks[block].first;
-    }
-    last.fill(0);
-    let mut next: Vec<u32> = blocks.iter().map(|block| block.first).collect();
-    let mut entries = vec![SeenEntry { after: 0, mask: 0 }; next[count] as usize];
-    for links in links {
-        interrupt.check(DURING)?;
-        for link in links {
-            let block = link.block as usize;
-            for_entries(link, &mut last[block], numbers, |entry| {
-                entries[next[block] as usize] = entry;
-                next[block] += 1;
-            });
-        }
-    }
+    blocks.push(Block { first: entries.len() as u32, slot: 0 });
     Ok((blocks, entries))
 }
 
-/// Visits the entries of a link. `last` is one more than the slot before it in its block; 0 for none.
-fn for_entries(link: &Link, last: &mut u32, numbers: &HashMap<u64, u16>, mut visit: impl FnMut(SeenEntry)) {
-    let mut after = if *last == 0 { 0 } else { link.slot + 1 - *last };
-    *last = link.slot + 1;
-    while after > u32::from(u16::MAX) {
-        visit(SeenEntry { after: u16::MAX, mask: EMPTY });
-        after -= u32::from(u16::MAX);
-    }
-    let mut add = |mask: u16| visit(SeenEntry { after: std::mem::take(&mut after) as u16, mask });
-    match numbers.get(&link.mask) {
-        Some(&number) => add(number),
-        None => rows_of(link.mask).filter_map(|row| numbers.get(&row)).for_each(|&number| add(number)),
-    }
-}
-
-/// The links of all subgoals, in the order of their slots, and what is seen from cells alone.
+/// The links of all subgoals, and what is seen from cells alone; `None` if there are more links than fit.
 fn links<P: EdgeFinder>(
     context: BuildContext<'_, P>,
-    (columns, count): (u32, usize),
+    (columns, free): (u32, &[u64]),
+    fits: impl Fn(usize) -> bool,
     progress: &(impl Fn(usize) + Sync),
     interrupt: &Interrupt,
-) -> Result<(Vec<Vec<Link>>, Vec<CellSlot>), Interrupted> {
-    let scratch = || (P::Scratch::default(), [Marks::new(count), Marks::new(count)], Vec::new());
-    let found = in_chunks(context.subgoals.len(), scratch, progress, |(scratch, sides, runs), ids| {
-        let (mut links, mut cells) = (Vec::new(), Vec::new());
-        for id in ids {
+) -> Result<Option<(BlockLinks, Vec<CellSlot>)>, Interrupted> {
+    let (subgoals, count) = (context.subgoals.len(), free.len());
+    let (mut all, mut all_cells) = (BlockLinks::new(count), Vec::new());
+    let (pool, new) =
+        (Pool::default(), || (P::Scratch::default(), [(); 2].map(|()| Marks::new(count)), Vec::new()));
+    for first in (0..subgoals).step_by(PIECE) {
+        let progress = |done| progress(first + done);
+        let ids = PIECE.min(subgoals - first);
+        let find = |scratch: &mut _, ids| find(context, (columns, free), scratch, (first, ids), interrupt);
+        let found = in_chunks(ids, || (), &progress, |(), ids| pool.lend(new, |scratch| find(scratch, ids)))?;
+        for (links, cells) in found {
             interrupt.check(DURING)?;
-            let subgoal = context.subgoals.vertex(id);
-            runs.clear();
-            let add = |run: VertexRun| sides[usize::from(run.is_right)].add(columns, run);
-            P::runs_to(context, scratch, subgoal, add, |run| runs.push(run));
-            for &CellRun { row, first, end, is_right } in &*runs {
-                let (side, marks) = (u32::from(is_right), &sides[usize::from(is_right)]);
-                let alone = (first..end).filter(|&column| !marks.touch(columns, column, row));
-                let (row, slot) = (row as u32, id * P::SIDES + side);
-                cells.extend(alone.map(|column| CellSlot { row, column: column as u32, slot }));
-            }
-            for (side, marks) in (0..).zip(&mut *sides) {
-                marks.take(|block, mask| links.push(Link { block, slot: id * P::SIDES + side, mask }));
-            }
+            links.into_iter().for_each(|link| all.add(link));
+            all_cells.extend(cells);
         }
-        Ok((links, cells))
-    })?;
-    let (links, cells): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-    Ok((links, cells.concat()))
+        if !fits(all.total) {
+            return Ok(None);
+        }
+    }
+    Ok(Some((all, all_cells)))
+}
+
+/// Scratch memory to find links: of the placement, the vertices of either side, and rows of cells.
+type Finder<P> = (<P as EdgeFinder>::Scratch, [Marks; 2], Vec<CellRun>);
+
+/// The links of some subgoals, by their numbers from `first` on, in the order of their slots; and what is
+/// seen from cells alone.
+fn find<P: EdgeFinder>(
+    context: BuildContext<'_, P>,
+    (columns, free): (u32, &[u64]),
+    (scratch, sides, runs): &mut Finder<P>,
+    (first, ids): (usize, Range<u32>),
+    interrupt: &Interrupt,
+) -> Result<(Vec<Link>, Vec<CellSlot>), Interrupted> {
+    let (mut links, mut cells) = (Vec::new(), Vec::new());
+    for id in ids.map(|id| first as u32 + id) {
+        interrupt.check(DURING)?;
+        let subgoal = context.subgoals.vertex(id);
+        runs.clear();
+        let add = |run: VertexRun| sides[usize::from(run.is_right)].add(columns, run);
+        P::runs_to(context, scratch, subgoal, add, |run| runs.push(run));
+        for &CellRun { row, first, end, is_right } in &*runs {
+            let (side, marks) = (u32::from(is_right), &sides[usize::from(is_right)]);
+            let alone = (first..end).filter(|&column| !marks.touch(columns, column, row));
+            let (row, slot) = (row as u32, id * P::SIDES + side);
+            cells.extend(alone.map(|column| CellSlot { row, column: column as u32, slot }));
+        }
+        for (side, marks) in (0..).zip(&mut *sides) {
+            marks.take(|block, mask| {
+                let free = free[block as usize];
+                let mask = if mask & free == free { FULL } else { mask & free };
+                links.push(Link { block, slot: id * P::SIDES + side, mask });
+            });
+        }
+    }
+    Ok((links, cells))
 }
 
 /// The free vertices of each block.
@@ -226,14 +222,10 @@ fn rows_of(mask: u64) -> impl Iterator<Item = u64> {
     (0..SIDE).map(move |row| mask & 0xFF << (SIDE * row)).filter(|&row| row != 0)
 }
 
-/// The masks of a map, and their numbers: the full one, the empty one, the others by frequency. If there are
-/// more than `most`, all that lie within one row come next, and the rarest are left out.
-fn dictionary(
-    links: &[Vec<Link>],
-    most: usize,
-    interrupt: &Interrupt,
-) -> Result<(Vec<u64>, HashMap<u64, u16>), Interrupted> {
-    let mut counted = counted_masks(links, interrupt)?;
+/// The masks of a map, of which those that are not full are counted, and their numbers: the full one, the
+/// empty one, the others by frequency. If there are more than `most`, all that lie within one row come next,
+/// and the rarest are left out.
+fn dictionary(mut counted: Vec<(usize, u64)>, most: usize) -> (Vec<u64>, HashMap<u64, u16>) {
     counted.sort_unstable_by_key(|&(count, mask)| (std::cmp::Reverse(count), mask));
     let mut masks = vec![FULL, 0];
     if masks.len() + counted.len() > most {
@@ -243,32 +235,7 @@ fn dictionary(
     let others: Vec<u64> = counted.iter().map(|&(_, mask)| mask).filter(|&mask| !is_row(mask)).collect();
     masks.extend(others.into_iter().take(most - masks.len()));
     let numbers = masks.iter().zip(0..=u16::MAX).map(|(&mask, number)| (mask, number)).collect();
-    Ok((masks, numbers))
-}
-
-/// The masks that are not full, each with how often it occurs.
-fn counted_masks(links: &[Vec<Link>], interrupt: &Interrupt) -> Result<Vec<(usize, u64)>, Interrupted> {
-    /// The masks that are sorted between two questions of the interrupt.
-    const PIECE: usize = 1 << 16;
-    // In pieces, since most masks occur often.
-    let mut counted: Vec<(u64, usize)> = Vec::new();
-    let mut piece: Vec<u64> = Vec::with_capacity(PIECE);
-    let mut count = |piece: &mut Vec<u64>| {
-        piece.sort_unstable();
-        counted.extend(piece.chunk_by(|a, b| a == b).map(|same| (same[0], same.len())));
-        piece.clear();
-        interrupt.check(DURING)
-    };
-    for mask in links.iter().flatten().map(|link| link.mask).filter(|&mask| mask != FULL) {
-        piece.push(mask);
-        if piece.len() == PIECE {
-            count(&mut piece)?;
-        }
-    }
-    count(&mut piece)?;
-    counted.sort_unstable();
-    let same = counted.chunk_by(|(a, _), (b, _)| a == b);
-    Ok(same.map(|same| (same.iter().map(|(_, count)| count).sum(), same[0].0)).collect())
+    (masks, numbers)
 }
 
 /// The vertices that are joined to one side of a subgoal, by block.

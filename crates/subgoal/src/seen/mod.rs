@@ -21,6 +21,7 @@
 mod build;
 mod cells;
 mod codec;
+mod links;
 
 use mediant_grid::Vertex;
 

@@ -8,7 +8,7 @@ use mediant_grid::{
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, describe, noise, on_all_cores, random_grid, rooms, seeds, wide_grid};
 
-use super::{FULL, Link, SeenIndex, links};
+use super::{BlockLinks, FULL, Link, SeenIndex, links};
 use crate::{
     build::Ground,
     hierarchy::Hierarchy,
@@ -173,8 +173,9 @@ fn slots_may_be_far_apart() {
     let far = u32::from(u16::MAX);
     let last = 9 * far + 17;
     let links = [(1, 3, 1), (1, 4, FULL), (1, 3 + far, 1), (1, 4 + 2 * far, 2), (1, last, 3), (2, last, 1)];
-    let links = links.map(|(block, slot, mask)| Link { block, slot, mask }).to_vec();
-    let index = uninterrupted(|never| SeenIndex::of_links(&[links], 3, 3, 65_536, never));
+    let mut all = BlockLinks::new(3);
+    links.into_iter().for_each(|(block, slot, mask)| all.add(Link { block, slot, mask }));
+    let index = uninterrupted(|never| SeenIndex::of_links(&all, 3, 65_536, never));
     let at = |x| slots(&index, Vertex::new(x, 0)).into_iter().collect::<Vec<_>>();
     assert_eq!(at(0), []);
     assert_eq!(at(8), [3, 4, 3 + far, last]);
@@ -192,7 +193,12 @@ fn it_keeps_within_its_memory() {
     let of = |most| uninterrupted(|never| SeenIndex::new(ground.context(&space), most, &|_| {}, never));
     let within = |most| of(most).is_some();
     assert!(within(whole.memory_bytes()) && !within(0) && !within(whole.entries.len() * 4));
-    let size = (whole.columns, whole.blocks.len() - 1);
-    let (links, _) = uninterrupted(|never| links(ground.context(&space), size, &|_| {}, never));
-    assert!(links.iter().flatten().count() >= whole.entries.len());
+    let free = vec![!0; whole.blocks.len() - 1];
+    let links = |fits: &dyn Fn(usize) -> bool| {
+        let blocks = (whole.columns, &free[..]);
+        uninterrupted(|never| links(ground.context(&space), blocks, fits, &|_| {}, never))
+    };
+    let (all, _) = links(&|_| true).expect("they fit");
+    assert!(all.total >= whole.entries.len());
+    assert!(links(&|count| count < all.total).is_none());
 }

@@ -30,13 +30,14 @@ fn check<P: SubgoalPlacement>(grid: &Grid, k: K, rule: P::Rule, seed: u64) -> [u
     let (labels, free) = (labels(&space, k), free(&space));
     let mut planner = HubLabelSearch::new(&space, &labels).expect("the labels are for this space");
     let (mut at_once, mut ties) = (vec![None; 99], 0);
-    for _ in 0..4 {
+    // Of many goals most are not looked at.
+    for count in [12, 12, 3, 150] {
         let mut pick = || rng.pick(&free).copied();
-        let mut goals: Vec<Vertex> = (0..12).filter_map(|_| pick()).collect();
+        let mut goals: Vec<Vertex> = (0..count).filter_map(|_| pick()).collect();
         goals.extend(goals.clone().iter().step_by(3));
         let prepared = labels.goals(&space, goals.iter().copied()).expect("the goals are free");
         assert_eq!(prepared.vertices(), goals);
-        let starts = [pick(), pick(), goals.get(4).copied()];
+        let starts = [pick(), pick(), goals.get(2).copied()];
         for start in starts.into_iter().flatten() {
             let case = |goal| format!("from {start} to {goal}, k = {k}, {}, seed {seed}", space.rules());
             planner.distances(start, &prepared, &mut at_once).expect("the start is free");
