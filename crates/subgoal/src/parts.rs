@@ -62,7 +62,7 @@ impl<'b> Reader<'b> {
         Some(words.iter().map(|&word| u64::from_le_bytes(word)).collect())
     }
 
-    /// What [`pairs32`](Writer::pairs32) wrote; a word without another is left out.
+    /// Reads the pairs that [`pairs32`](Writer::pairs32) wrote; a word without another is left out.
     pub(crate) fn pairs32<T>(&mut self, of: impl Fn([u32; 2]) -> T) -> Option<Box<[T]>> {
         let (words, _) = self.take(size_of::<u32>())?.as_chunks();
         let (pairs, _) = words.as_chunks();

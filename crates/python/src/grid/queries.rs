@@ -283,7 +283,7 @@ impl Grid {
     ///     else a contraction hierarchy; `Index.levels` says which.
     /// memory : int or str, optional
     ///     The memory that the hub labels of ``subgoal`` may take: a number of bytes, or a text as ``"8MB"``.
-    ///     What they leave of it goes to labels of vertices, with which queries take down to a third of the
+    ///     The rest of it goes to labels of vertices, with which queries take down to a third of the
     ///     time. By default they may take 48 bytes a cell, but at least 32 MB and at most 1 GB, and vertices
     ///     have none.
     /// side : int, optional

@@ -96,7 +96,7 @@ impl Labels {
     }
 }
 
-/// What has been found.
+/// The labels that have been found, and the room that is left.
 struct Found {
     /// The bytes that are left.
     rest: usize,

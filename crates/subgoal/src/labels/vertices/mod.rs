@@ -30,9 +30,9 @@ pub(super) struct VertexLabels {
     blocks: Box<[u32]>,
     /// By vertex of the blocks that have labels, and one more that ends the last.
     spans: Box<[Span]>,
-    /// The labels, as those of subgoals, from the nearest hub on: first those whose paths lead on over another
-    /// subgoal, each with the [word](PathStep::to_word) of its first step, then the subgoals that the vertex
-    /// sees. What a query reads lies together.
+    /// The labels, as those of subgoals, from the nearest hub on: first those whose paths lead on over
+    /// another subgoal, each with the [word](PathStep::to_word) of its first step, then the subgoals that
+    /// the vertex sees. What a query reads lies together.
     words: Box<[u64]>,
 }
 
@@ -50,7 +50,7 @@ struct Span {
 /// The labels of one vertex.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OfVertex<'l> {
-    /// Those with a first step.
+    /// The labels with a first step.
     leading: &'l [[u64; 2]],
     seen: &'l [u64],
 }
