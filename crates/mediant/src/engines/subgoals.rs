@@ -44,8 +44,10 @@ use crate::{
 pub struct SubgoalOptions {
     /// The levels of the graph, a contraction hierarchy, or hub labels; by default the map decides.
     pub levels: Option<Levels>,
-    /// The memory that hub labels may take. By default that of [`Memory::for_labels_of`] if no levels are
-    /// named, and as much as they need if [`Levels::Labels`] are named.
+    /// The memory that hub labels may take, which is used: what they leave of it goes to labels of vertices,
+    /// with which queries take down to a third of the time. By default vertices have none, and hub labels may
+    /// take that of [`Memory::for_labels_of`] if no levels are named, and as much as they need if
+    /// [`Levels::Labels`] are named.
     pub memory: Option<Memory>,
 }
 

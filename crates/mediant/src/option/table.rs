@@ -90,7 +90,7 @@ impl EngineOption {
     /// |---|---|---|
     /// | `hk`, `euclidean`, `zero` | `--heuristic` | the heuristic of the search |
     /// | `levels=N`, `levels=all`, `levels=contracted`, `levels=labels` | `--levels` | the levels of a subgoal graph or of clusters, or hub labels |
-    /// | `memory=8MB` | `--memory` | the memory that hub labels may take |
+    /// | `memory=8MB` | `--memory` | the memory that hub labels may take, and labels of vertices with them |
     /// | `side=N` | `--side` | the side of a cluster or segment, in cells |
     /// | `landmarks=N` | `--landmarks` | the number of landmarks, up to 16 |
     ///

@@ -115,8 +115,10 @@ impl Join {
     ) -> Option<Meeting> {
         let Self { ends: [departures, arrivals], hubs, .. } = self;
         let [of_start, of_goal] = [start, goal].map(|end| index.labels_of(end));
-        if let (Some(a), Some(b)) = (of_start, of_goal) {
-            std::hint::black_box(a.touch() ^ b.touch());
+        if let (Some(of_start), Some(of_goal)) = (of_start, of_goal) {
+            // Else the goal's labels would be waited for once the start's are through: whole files of orz900d
+            // take 0.93 of the time, of AR0011SR 0.75.
+            std::hint::black_box(of_start.touch() ^ of_goal.touch());
         }
         if let Some(of_start) = of_start {
             hubs.leave_vertex(&index.packed, of_start);
