@@ -187,7 +187,7 @@ fn show(record: &Record) -> Section {
          engines on the grid graph it is 16 to 24 bytes a vertex.",
     );
     section.text(
-        "`subgoal` keeps hub labels where they fit its budget, 48 bytes a cell but at least 32 MB, else a \
+        "`subgoal` keeps hub labels where they fit its budget, 48 bytes a cell but at least 32 MB here, else a \
          contraction hierarchy; `levels=labels` allows any amount, and `levels=contracted` always keeps a contraction. \
          In the tables `*` marks a contraction in place of labels, `†` a map on which nothing is kept and \
          another engine searches.",

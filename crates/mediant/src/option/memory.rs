@@ -38,8 +38,8 @@ impl Memory {
         }
     }
 
-    /// The memory that the hub labels of a map may take if the user names none: 48 bytes a cell, but at least
-    /// 32 MB and at most 1 GB. That holds the labels of all maps of games, streets and rooms of the MovingAI
+    /// The memory that the hub labels of a map may take if the user names none: 64 bytes a cell, but at least
+    /// 48 MB and at most 1 GB. That holds the labels of all maps of games, streets and rooms of the MovingAI
     /// sets, and of a street map that was tiled to 4096 × 4096 cells.
     #[must_use]
     pub fn for_labels_of(width: u32, height: u32) -> Self {
@@ -59,8 +59,8 @@ impl Memory {
     }
 }
 
-const BYTES_A_CELL: NonZeroU64 = NonZeroU64::MIN.saturating_add(47);
-const LEAST: NonZeroU64 = NonZeroU64::MIN.saturating_add(32_000_000 - 1);
+const BYTES_A_CELL: NonZeroU64 = NonZeroU64::MIN.saturating_add(63);
+const LEAST: NonZeroU64 = NonZeroU64::MIN.saturating_add(48_000_000 - 1);
 const MOST: NonZeroU64 = NonZeroU64::MIN.saturating_add(1_000_000_000 - 1);
 
 /// In the largest unit of which it is a whole number.

@@ -151,5 +151,5 @@ fn amounts_of_memory_are_read_and_written() {
     }
     let default = |width, height| Memory::for_labels_of(width, height).bytes();
     let of_maps = [default(1, 1), default(1000, 1000), default(2048, 2048), default(8192, 8192)];
-    assert_eq!(of_maps, [32_000_000, 48_000_000, 3 << 26, 1_000_000_000]);
+    assert_eq!(of_maps, [48_000_000, 64_000_000, 1 << 28, 1_000_000_000]);
 }

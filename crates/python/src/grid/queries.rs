@@ -284,7 +284,7 @@ impl Grid {
     /// memory : int or str, optional
     ///     The memory that the hub labels of ``subgoal`` may take: a number of bytes, or a text as ``"8MB"``.
     ///     The rest of it goes to labels of vertices, with which queries take down to a third of the
-    ///     time. By default they may take 48 bytes a cell, but at least 32 MB and at most 1 GB, and vertices
+    ///     time. By default they may take 64 bytes a cell, but at least 48 MB and at most 1 GB, and vertices
     ///     have none.
     /// side : int, optional
     ///     The side of a cluster or segment, in cells.
