@@ -175,7 +175,8 @@ fn curve(record: &Record) -> Chart {
         };
         mean_of(of_program(PROGRAMS[0]).map(of_map))
     };
-    let budgets = [LABELS].into_iter().chain(BUDGETS).filter_map(ours);
+    let mut budgets: Vec<_> = [LABELS].into_iter().chain(BUDGETS).filter_map(ours).collect();
+    budgets.sort_by(|(memory, _), (other, _)| memory.total_cmp(other));
     chart.push(Series::new("Mediant", Mark::Line, budgets));
     for program in PROGRAMS {
         let scaled = |point: &Point| Some((point.megabytes, point.micros[0] * scale(record, point.map)?));
