@@ -40,7 +40,7 @@ const EXPECTED: [Row; 16] = [
     ("theta", 0x3880_030b_93ba_717a, 112),
     ("lazy-theta", 0xcfda_da1f_f9dd_07cb, 84),
     ("anya", 0xcbcb_e940_8aa3_ec10, 28),
-    ("subgoal", 0xc649_dd57_a5e2_36ee, 176),
+    ("subgoal", 0xc9b0_cbd7_1e85_055a, 198),
     ("subgoal-theta", 0xd632_2226_40f1_a03e, 40),
     ("hpa", 0x1f2e_ab71_0e82_1128, 72),
     ("chpa", 0x3eab_8a9f_86f9_3910, 88),
