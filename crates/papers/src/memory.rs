@@ -181,7 +181,7 @@ fn curve(record: &Record) -> Chart {
     for program in PROGRAMS {
         let scaled = |point: &Point| Some((point.megabytes, point.micros[0] * scale(record, point.map)?));
         let mean = mean_of(of_program(program).map(scaled));
-        chart.push(Series::new(program, Mark::Points, mean.into_iter()).hollow());
+        chart.push(Series::new(program, Mark::Points, mean).hollow());
     }
     chart
 }
@@ -275,12 +275,9 @@ fn budgets(record: &Record) -> Table {
 /// The row of the largest budget of which the index takes at most so many bytes; that of the hub labels alone
 /// if there is none.
 fn within<'a>(record: &'a Record, map: &str, bytes: f64) -> Option<&'a Row> {
-    let rows = BUDGETS.into_iter().filter_map(|text| on(record, map, text));
+    let rows = BUDGETS.into_iter().rev().filter_map(|text| on(record, map, text));
     let fits = |row: &&Row| row.number("index").is_some_and(|size| size <= bytes);
-    rows.filter(|row| row.text("kept") == Kept::Labels.name())
-        .filter(fits)
-        .last()
-        .or_else(|| on(record, map, LABELS))
+    rows.filter(|row| row.text("kept") == Kept::Labels.name()).find(fits).or_else(|| on(record, map, LABELS))
 }
 
 fn beside(record: &Record) -> Table {
