@@ -196,13 +196,13 @@ def test_levels_of_indexes():
 
 
 def test_stages_of_labels():
-    """The preparation of labels tells its four stages in order."""
+    """The preparation of labels tells its five stages in order."""
     blocked = np.kron(np.random.default_rng(3).random((90, 90)) < 0.2, np.ones((5, 5), dtype=bool))
     grid, told = mediant.Grid(blocked), []
     index = grid.prepare("subgoal", memory="2GB", progress=lambda *args: told.append(args))
-    order = ["edges", "hierarchy", "sight", "labels"]
+    order = ["edges", "hierarchy", "sight", "labels", "vertices"]
     stages = [order.index(stage) for stage, _, _ in told]
-    assert index.levels == "labels" and stages == sorted(stages) and stages[-1] == 3
+    assert index.levels == "labels" and stages == sorted(stages) and stages[-1] == 4
     assert all(0 < done <= total for _, done, total in told)
 
 

@@ -273,9 +273,10 @@ impl Grid {
     /// threads : int, optional
     ///     The number of threads; by default one for each core.
     /// progress : callable, optional
-    ///     Called now and then with the stage (``"edges"``, ``"hierarchy"``, ``"sight"`` or ``"labels"``),
-    ///     and the number of subgoals that it has finished and of all: a hierarchy leaves the last ones as
-    ///     they are. Only the engines on subgoals report progress.
+    ///     Called now and then with the stage (``"edges"``, ``"hierarchy"``, ``"sight"``, ``"labels"`` or
+    ///     ``"vertices"``), and the number of subgoals that it has finished and of all, in the last stage of
+    ///     blocks of vertices: a hierarchy leaves the last ones as they are. Only the engines on subgoals
+    ///     report progress.
     /// heuristic : {"hk", "euclidean", "zero"}, optional
     ///     The heuristic of the search.
     /// levels : int, "all", "contracted" or "labels", optional
