@@ -16,8 +16,9 @@ use crate::{
 #[wasm_bindgen]
 impl Space {
     /// Prepares what an engine needs; by default the engine that `engine()` names. `progress` is called with
-    /// a stage (`"edges"`, `"hierarchy"`, `"sight"`, `"labels"` or `"vertices"`), and how much of it is done of
-    /// all. What it throws stops the preparation. From outside, a preparation is stopped by ending its worker.
+    /// a stage (`"edges"`, `"hierarchy"`, `"sight"`, `"labels"` or `"vertices"`), and how much of it is done
+    /// of all. What it throws stops the preparation. From outside, a preparation is stopped by ending its
+    /// worker.
     ///
     /// ```js
     /// const index = space.prepare("subgoal");
