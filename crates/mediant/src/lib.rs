@@ -186,14 +186,19 @@
 //! |---|---|
 //! | ask for several ends, a tolerance, the nearest reachable vertex, limits | [`Query`] |
 //! | stop a search, or go on in steps | [`Limits`], [`Planner::begin`](Planner#a-search-in-steps) |
-//! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)`, and [`Planner::within`] |
-//! | measure without the path, to many [`Goals`], from many to many | [`Planner::distance`], [`Planner::distances`], [`Planner::nearest`], [`Table`] |
+//! | stop whatever else takes long | [`Within`], as in `space.within(&limits).prepare(engine)` |
+//! | measure without the path; from many to many | [`Planner::distance`]; [`Table`] |
+//! | measure to many [`Goals`], find the nearest | [`Planner::distances`], [`Planner::nearest`] |
+//! | stop either of these | [`Planner::within`] |
 //! | lead many agents to one goal | [`Field`] |
 //! | find cheapest paths over cells with costs, cost distance, corridors | [`Map::costs`], [`Field::corridor`] |
 //! | keep off walls by costs, as nav2 does | [`Map::inflated`], [`Costmap`] |
 //! | walk over elevation, from places or to them | `Map::walking`, [`Space::field_from`] |
-//! | write allocation and directions (back links) as rasters, tell the cells that a path crosses | [`Field::allocation`], `Field::directions`, `Space::crossings` |
-//! | move a disc or a square, among obstacles that change, off walls | [`Map::for_disc`], [`Map::for_square`], [`Disc`], [`Square`], [`Space::widest_path`] |
+//! | write allocation and directions (back links) as rasters | [`Field::allocation`], `Field::directions` |
+//! | tell the cells that a path crosses | `Space::crossings` |
+//! | move a disc or a square | [`Map::for_disc`], [`Map::for_square`] |
+//! | move one among obstacles that change | [`Disc`], [`Square`] |
+//! | keep off walls | [`Space::widest_path`] |
 //! | count some cells otherwise for one query | [`Exceptions`] |
 //! | ask whether a path still holds | [`Space::check`], [`Change::check`] |
 //! | replan only when that is needed | [`Planner::replan`] |

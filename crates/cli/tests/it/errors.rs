@@ -60,7 +60,8 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "moves",
-        "give --k or --neighbors to list the moves of a neighborhood, --ratio to find the smallest k for a bound, or both",
+        "give --k or --neighbors to list the moves of a neighborhood, --ratio to find the smallest k for a bound, \
+         or both",
     );
     check(
         "moves --k 48",
@@ -84,7 +85,8 @@ fn engines_and_values_that_do_not_exist() {
     );
     check(
         "run builtin:cave --engine canonical --variant best",
-        "invalid value 'best' for '--variant <exact|complete|paper>' [possible values: exact, complete, paper]; see --help",
+        "invalid value 'best' for '--variant <exact|complete|paper>' [possible values: exact, complete, paper]; \
+         see --help",
     );
     check(
         "run builtin:cave --heuristic manhattan",
@@ -336,8 +338,8 @@ fn files_that_are_no_scenarios_of_this_map() {
     let other_size = SCENARIO.replace("yard.map\t3\t2", "maps/barn.map\t5\t7");
     check(
         &files.add("size.scen", other_size),
-        "instance 0 of the scenario: expected the map `maps/barn.map` of 5 × 7 cells, found `yard.map` of 3 × 2 cells; \
-         take the scenario that was made for this map",
+        "instance 0 of the scenario: expected the map `maps/barn.map` of 5 × 7 cells, found `yard.map` of 3 × 2 \
+         cells; take the scenario that was made for this map",
     );
     // Of the same size, but another map: a blocked goal shows it.
     let misfit = SCENARIO.replace("yard.map", "maps/barn.map").replace("\t2\t0\t4", "\t1\t0\t4");

@@ -89,7 +89,7 @@ impl EngineOption {
     /// | in the text of a setup | flag of the program | meaning |
     /// |---|---|---|
     /// | `hk`, `euclidean`, `zero` | `--heuristic` | the heuristic of the search |
-    /// | `levels=N`, `levels=all`, `levels=contracted`, `levels=labels` | `--levels` | the levels of a subgoal graph or of clusters, or hub labels |
+    /// | `levels=N`, `=all`, `=contracted`, `=labels` | `--levels` | the levels of graphs or clusters, or hub labels |
     /// | `memory=8MB` | `--memory` | the memory that hub labels may take, and labels of vertices with them |
     /// | `side=N` | `--side` | the side of a cluster or segment, in cells |
     /// | `landmarks=N` | `--landmarks` | the number of landmarks, up to 16 |

@@ -233,7 +233,8 @@ fn engines_take_only_their_own_options() {
     let error = "astar,limit=4".parse::<Setup>().expect_err("no jumps").to_string();
     assert_eq!(
         error,
-        "expected ENGINE[:K[:RULE]][,OPTION…], found `astar,limit=4`: astar takes no jump limit: leave it out, or choose jps, jps-block"
+        "expected ENGINE[:K[:RULE]][,OPTION…], found `astar,limit=4`: astar takes no jump limit: \
+         leave it out, or choose jps, jps-block"
     );
 }
 
@@ -396,7 +397,8 @@ fn each_wrong_part_is_named() {
         assert!(wrong(&format!("jps,{option}")).contains("the options are hk, euclidean, zero,"), "{option}");
     }
     assert!(wrong("jps,best").ends_with(
-        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, levels=contracted, levels=labels, memory=BYTES, side=N, landmarks=N, unstraightened, second=HEURISTIC, \
+        "squared, exact, complete, paper, limit=N, intermediate, levels=N, levels=all, levels=contracted, \
+         levels=labels, memory=BYTES, side=N, landmarks=N, unstraightened, second=HEURISTIC, \
          step=N, detour=N, smooth, taut"
     ));
     assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));

@@ -220,7 +220,7 @@ fn repaired_indexes_are_as_good_as_new_ones() {
                 let origin = match is_same {
                     true => Origin::Unchanged,
                     false if has_record && !is_recorded => Origin::Prepared,
-                    // Where much has changed, these are made anew.
+                    // These are made anew if much has changed.
                     false if has_landmarks || has_record => index.origin(),
                     false => Origin::Repaired,
                 };

@@ -101,11 +101,11 @@ impl Stopped {
 }
 
 impl Limits {
-    /// How many expansions are made between two looks at the deadline.
+    /// The number of expansions from one look at the deadline to the next.
     pub const EXPANSIONS_PER_LOOK: u64 = 64;
 
-    /// How many pairs of a start and a goal are searched between two looks at the deadline, however few
-    /// expansions they take.
+    /// The number of pairs of a start and a goal that are searched from one look at the deadline to the next,
+    /// however few expansions they take.
     pub const PAIRS_PER_LOOK: u64 = 16;
 
     /// No limits.

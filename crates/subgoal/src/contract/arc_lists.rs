@@ -14,12 +14,12 @@ pub(crate) struct ArcLists {
     total: usize,
 }
 
-/// Where the arcs of a subgoal lie.
+/// The place of a subgoal's arcs in the list.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     first: usize,
     length: u32,
-    /// How many arcs there is room for.
+    /// The number of arcs for which there is room.
     room: u32,
 }
 

@@ -9,7 +9,7 @@ use super::{
     pack::{cost_bits_of, most_cost},
 };
 
-/// How labels are words.
+/// The bits of the two words of a label.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Form {
     /// The bits of the numbers of subgoals.
@@ -90,7 +90,7 @@ pub(super) struct LabelLists {
     pieces: Vec<Piece>,
 }
 
-/// Where the labels of a subgoal are.
+/// The place of a subgoal's labels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     piece: u32,

@@ -38,7 +38,7 @@ impl Goals {
     }
 }
 
-/// Why a call over many goals has no result.
+/// A call over many goals that has no result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GoalsError {
     /// An end is wrong, or the goals are others.

@@ -10,7 +10,7 @@ use std::{
 
 use super::{EMPTY, build::FULL};
 
-/// Which vertices of a block are joined to a slot.
+/// A link of a block and a slot: the vertices of the block that are joined to it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
     pub(super) block: u32,
@@ -48,7 +48,7 @@ const LONG: u32 = u16::MAX as u32;
 /// A link as a list has it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ListedLink {
-    /// How much larger its slot is than that of the link before.
+    /// The difference of its slot from that of the link before.
     pub(super) after: u16,
     /// The number of its mask among those that were [met](MetMasks).
     pub(super) mask: u32,

@@ -39,7 +39,7 @@ pub(super) struct VertexLabels {
 /// The number of a block without labels.
 const NONE: u32 = u32::MAX;
 
-/// Where the labels of a vertex begin.
+/// The place of a vertex's labels, which ends where that of the next vertex begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Span {
     word: u32,
