@@ -141,8 +141,8 @@ fn over(waypoints: &mut Vec<Vertex>, vertices: &[Vertex], parts: impl Fn(Vector)
     waypoints.truncate(at + 1);
 }
 
-/// Writes the path along straight lines from vertex to vertex to `waypoints`, without those at which it
-/// stands still or goes straight on. The vertices are some of a map.
+/// Writes the path along straight lines from vertex to vertex to `waypoints`, without those at which it goes
+/// straight on. The vertices are some of a map, and no two in a row are the same.
 pub(crate) fn over_bends(waypoints: &mut Vec<Vertex>, vertices: &[Vertex]) {
     let Some(&first) = vertices.first() else { return waypoints.clear() };
     waypoints.resize(vertices.len(), first);
@@ -154,11 +154,9 @@ pub(crate) fn over_bends(waypoints: &mut Vec<Vertex>, vertices: &[Vertex]) {
         let v = [i64::from(to.x) - i64::from(last.x), i64::from(to.y) - i64::from(last.y)];
         let is_parallel = before[0] * v[1] == before[1] * v[0];
         let goes_on = is_parallel & (before[0] * v[0] + before[1] * v[1] > 0);
-        let stands = v == [0, 0];
-        at += usize::from(!(goes_on | stands));
+        at += usize::from(!goes_on);
         waypoints[at] = to;
-        before = if stands { before } else { v };
-        last = to;
+        (before, last) = (v, to);
     }
     waypoints.truncate(at + 1);
 }

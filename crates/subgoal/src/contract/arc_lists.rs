@@ -134,3 +134,6 @@ impl Index<usize> for ArcLists {
         &self.arcs[first..first + length as usize]
     }
 }
+
+#[cfg(test)]
+mod tests;

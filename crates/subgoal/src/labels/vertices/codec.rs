@@ -41,12 +41,8 @@ impl VertexLabels {
             let fits = pairs.iter().all(|[label, step]| is_label(label) && is_step(step));
             Some(fits && seen.iter().all(is_label))
         };
-        let is_whole = match (spans.first(), spans.last()) {
-            (Some(first), Some(last)) => {
-                blocks.len() == count && (first.word, last.word as usize) == (0, words.len())
-            }
-            _ => blocks.is_empty() && words.is_empty(),
-        };
+        let is_whole =
+            if spans.is_empty() { blocks.is_empty() && words.is_empty() } else { blocks.len() == count };
         let fits = is_whole
             && vertices.is_multiple_of(BLOCK)
             && blocks.iter().all(begins)
