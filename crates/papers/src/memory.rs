@@ -106,9 +106,8 @@ fn show(record: &Record) -> Section {
     section.text(
         "The option `memory` says how much hub labels may take. Where they take more, a contraction is kept, \
          and where that would be slower than Anya, nothing. What they leave goes to labels of vertices. The \
-         last row is the default when this was measured: hub labels may take 48 bytes a cell, but at least \
-         32 MB and at most 1 GB, and vertices have no labels. Since then it is 64 bytes a cell and at least \
-         48 MB: the two maps that have a contraction in that row have labels.",
+         last row is the default: hub labels may take 64 bytes a cell, but at least 48 MB and at most 1 GB, \
+         and vertices have no labels.",
     );
     section.table(&budgets(record));
     section.heading("Beside EHL");
