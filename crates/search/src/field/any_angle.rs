@@ -49,7 +49,7 @@ use crate::limit::with_room;
 #[derive(Clone, Debug)]
 pub struct AnyAngleFields<S> {
     space: S,
-    /// The convex corners of obstacles at which paths may bend.
+    /// The convex corners of obstacles, and all gaps.
     corners: BitMatrix,
     open: BinaryHeap<Reverse<(u64, u32)>>,
     bends: Vec<(f64, VertexId)>,
@@ -70,7 +70,7 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     /// # Errors
     /// [`Interrupted`].
     pub fn interruptible(space: S, interrupt: &Interrupt) -> Result<Self, Interrupted> {
-        let corners = bends(&space, interrupt)?;
+        let corners = corners(&space, true, interrupt)?;
         let (open, bends, pending, sight) = Default::default();
         Ok(Self { space, corners, open, bends, pending, sight })
     }
@@ -224,14 +224,18 @@ fn from_bend(labels: &mut Labels<'_>, root: &Root, from: Place) -> Result<(), In
 /// The vertices at which paths may bend: those that touch one blocked cell, or two that meet diagonally, if a
 /// path may pass between them.
 pub(super) fn bends(space: &FreeSpace<Corners>, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
+    corners(space, space.rule() == DiagonalGap::Open, interrupt)
+}
+
+/// The vertices that touch one blocked cell, and with `gaps` those that touch two that meet diagonally.
+fn corners(space: &FreeSpace<Corners>, gaps: bool, interrupt: &Interrupt) -> Result<BitMatrix, Interrupted> {
     let cells = space.grid().rows();
-    let is_open = space.rule() == DiagonalGap::Open;
     let (size, stop) = (Corners::vertices(space.grid()), (interrupt, "finding corners"));
     BitMatrix::from_words_interruptible(size, false, stop, |x, y| {
         let [nw, ne, sw, se] = [(-1, -1), (0, -1), (-1, 0), (0, 0)]
             .map(|(dx, dy)| load(cells.words(), cells.index(x + dx, y + dy)));
         let one = (nw ^ ne ^ sw ^ se) & !(nw & ne | sw & se);
         let gap = (nw ^ ne) & !(nw ^ se) & !(ne ^ sw);
-        if is_open { one | gap } else { one }
+        if gaps { one | gap } else { one }
     })
 }

@@ -31,6 +31,39 @@ pub(super) struct Piece {
     right: IntervalEnd,
 }
 
+/// A line of vertices, seen from a root.
+#[derive(Clone, Copy, Debug)]
+struct Line {
+    y: i32,
+    /// The number of the vertex in column 0.
+    first: usize,
+    /// The square of the distance to the root, in parts of a cell.
+    away: f64,
+}
+
+impl Line {
+    /// A line, `n` parts of a cell away from the root.
+    #[inline]
+    fn new(y: i32, space: &FreeSpace<Corners>, n: i32) -> Self {
+        let first = y as usize * (space.grid().width() as usize + 1);
+        Self { y, first, away: f64::from(n) * f64::from(n) }
+    }
+
+    /// The number of its vertex in a column.
+    #[inline]
+    const fn number(self, x: i32) -> usize {
+        self.first + x as usize
+    }
+
+    /// The length of the path by a root to a vertex of it.
+    #[inline]
+    fn length(self, root: &Root, x: i32) -> f64 {
+        let aside = f64::from(Place::parts(x) - root.at.x);
+        // Squares of parts, and a product with a power of two, are exact: to the last bit this is in cells.
+        root.g + (aside * aside + self.away).sqrt() * PART
+    }
+}
+
 /// How much longer than the known distance of a vertex a path to it must be before what lies behind is left
 /// to others, in cells.
 ///
@@ -43,7 +76,7 @@ const MARGIN: f64 = 2.0;
 /// The labels of the vertices.
 pub(super) struct Labels<'s> {
     pub(super) space: &'s FreeSpace<Corners>,
-    /// The corners at which paths may bend.
+    /// The convex corners of obstacles, and all gaps: the vertices where a path may not just go straight on.
     pub(super) corners: &'s BitMatrix,
     /// By vertex number: the distance, infinity if none is known.
     pub(super) lengths: &'s mut [f64],
@@ -109,55 +142,86 @@ impl Labels<'_> {
         }
     }
 
-    /// Labels a vertex that a root sees, if the path by the root is shorter. Returns whether a path may go on
-    /// from there, or past it, and be a shortest one.
+    /// Labels a vertex of a line that a root sees, if the path by the root is shorter.
     #[inline]
-    fn label(&mut self, root: &Root, at: Vertex, index: usize, away: f64) -> bool {
-        let aside = f64::from(Place::parts(at.x) - root.at.x);
-        // Squares of parts, and a product with a power of two, are exact: to the last bit this is in cells.
-        let length = root.g + (aside * aside + away).sqrt() * PART;
+    fn label(&mut self, root: &Root, line: Line, x: i32) {
+        let (index, at) = (line.number(x), Vertex::new(x, line.y));
+        let length = line.length(root, x);
         let (Some(known), Some(toward)) = (self.lengths.get_mut(index), self.toward.get_mut(index)) else {
-            return false;
+            return;
         };
-        if length < *known && length <= self.limit {
-            if self.space.has_closed_gaps() && self.space.is_closed_gap(at) {
-                if self.space.may_turn_at(Some(root.at.into()), at.into(), None) {
-                    (*known, *toward) = (length, root.number);
-                }
-                return true;
-            }
-            (*known, *toward) = (length, root.number);
-            if self.corners.get(at.x, at.y) {
-                let mut bends = false;
-                turns(self.space, at, root.at, |_, _| bends = true);
-                if bends {
-                    self.bends.push((length, VertexId(index as u32)));
-                }
-            }
-            return true;
+        if length >= *known || length > self.limit {
+            return;
         }
+        if self.space.is_closed_gap(at) {
+            if self.space.may_turn_at(Some(root.at.into()), at.into(), None) {
+                (*known, *toward) = (length, root.number);
+            }
+            return;
+        }
+        (*known, *toward) = (length, root.number);
+        if self.corners.get(x, line.y) {
+            let mut bends = false;
+            turns(self.space, at, root.at, |_, _| bends = true);
+            if bends {
+                self.bends.push((length, VertexId(index as u32)));
+            }
+        }
+    }
+
+    /// Whether a path may go on from a vertex of a line, or past it, and be a shortest one.
+    #[inline]
+    fn may_go_on(&self, root: &Root, line: Line, x: i32) -> bool {
+        let Some(&known) = self.lengths.get(line.number(x)) else { return false };
+        let length = line.length(root, x);
         // The known path may end at a closed gap, but not go on.
         length <= self.limit + MARGIN
-            && (length <= *known + MARGIN || self.space.has_closed_gaps() && self.space.is_closed_gap(at))
+            && (length <= known + MARGIN || self.space.is_closed_gap(Vertex::new(x, line.y)))
+    }
+
+    /// Labels vertices of a line. Between corners nothing is decided but which path is shorter, for several
+    /// vertices at once.
+    #[inline]
+    fn label_between(&mut self, root: &Root, line: Line, (mut x, last): (i32, i32)) {
+        let corners = self.corners.row(line.y);
+        while x <= last {
+            let corner = x + corners.word(x).trailing_zeros() as i32;
+            let end = corner.min(last + 1);
+            let numbers = line.number(x)..line.number(end);
+            let (lengths, toward) = (self.lengths.get_mut(numbers.clone()), self.toward.get_mut(numbers));
+            let labels = lengths.unwrap_or_default().iter_mut().zip(toward.unwrap_or_default());
+            for ((known, toward), x) in labels.zip(x..) {
+                let length = line.length(root, x);
+                let is_less = length < *known && length <= self.limit;
+                *known = if is_less { length } else { *known };
+                *toward = if is_less { root.number } else { *toward };
+            }
+            x = end;
+            if corners.is_blocked(x) && x <= last {
+                self.label(root, line, x);
+                x += 1;
+            }
+        }
     }
 
     /// Labels the vertices on the horizontal line of a root, if it is on one, to one side.
     pub(super) fn along_line(&mut self, root: &Root, right: i32) {
         let ((left, after), (y, below)) = (root.at.columns(), root.at.lines());
         let mut x = if right > 0 { left } else { after };
-        let Some(id) = self.space.id(Vertex::new(x, y)).filter(|_| y == below) else { return };
-        let grid = self.space.grid();
-        let [above, below] = [-1, 1].map(|down| row_ahead(grid.rows(), y, down));
-        let mut index = id.0;
+        if y != below {
+            return;
+        }
+        let line = Line::new(y, self.space, 0);
+        let [above, below] = [-1, 1].map(|down| row_ahead(self.space.grid().rows(), y, down));
         loop {
             let cell = x + (right - 1) / 2;
             if above.is_blocked(cell) && below.is_blocked(cell) {
                 return;
             }
             x += right;
-            index = index.wrapping_add_signed(right);
-            let at = Vertex::new(x, y);
-            if !self.label(root, at, index as usize, 0.0) || self.space.is_closed_gap(at) {
+            let goes_on = self.may_go_on(root, line, x);
+            self.label(root, line, x);
+            if !goes_on || self.space.is_closed_gap(Vertex::new(x, y)) {
                 return;
             }
         }
@@ -232,18 +296,10 @@ impl Labels<'_> {
             return Some(piece);
         }
         let n = root.away(piece.line, down);
-        let away = f64::from(n) * f64::from(n);
-        let row = self.space.id(Vertex::new(0, piece.line))?.index();
-        let (mut x, mut low, mut high) = (first, i32::MAX, i32::MIN);
-        while x <= last {
-            if self.label(root, Vertex::new(x, piece.line), row + x as usize, away) {
-                (low, high) = (low.min(x), x);
-            }
-            x += 1;
-        }
-        if low > high {
-            return None;
-        }
+        let line = Line::new(piece.line, self.space, n);
+        let low = (first..=last).find(|&x| self.may_go_on(root, line, x))?;
+        let high = (low + 1..=last).rev().find(|&x| self.may_go_on(root, line, x)).unwrap_or(low);
+        self.label_between(root, line, (low, high));
         let corner = |x| IntervalEnd::corner(x, root.at.x, n);
         let left = if low > first { corner(low - 1) } else { piece.left };
         let right = if high < last { corner(high + 1) } else { piece.right };
