@@ -32,6 +32,8 @@ pub struct JumpContext<'c, P: Placement> {
 pub(super) struct JumpRules {
     /// Whether all jumps are made step by step.
     pub(super) stepwise: bool,
+    /// Whether jumps may be looked up: they lead as far as they can, and to nothing but jump points.
+    pub(super) looks_up: bool,
     /// The most steps of a jump.
     pub(super) limit: u32,
     /// Whether a diagonal jump ends at the first intermediate jump point.
@@ -46,17 +48,12 @@ impl JumpRules {
     /// The options before a search begins.
     pub(super) const PLAIN: Self = Self {
         stepwise: false,
+        looks_up: false,
         limit: u32::MAX,
         keeps_intermediate: false,
         has_other_nodes: false,
         near: NearGoal::EVERYWHERE,
     };
-
-    /// Whether jumps lead as far as they can, and to nothing but jump points.
-    #[inline]
-    pub(super) const fn are_plain(&self) -> bool {
-        self.limit == u32::MAX && !self.keeps_intermediate
-    }
 }
 
 /// The even moves of a set for k ≤ 3, and the odd ones: in this order jumps are made. Axial ones first,
@@ -73,6 +70,10 @@ pub(super) const fn in_order(moves: u8) -> [u8; 2] {
 /// Axial jumps repeat an even-indexed move, diagonal jumps an odd-indexed one. All methods but
 /// [`identity`](Self::identity) are for this crate alone.
 pub trait JumpFinder<P: Placement>: Debug {
+    /// Whether it knows successors beforehand.
+    #[doc(hidden)]
+    const LOOKS_UP: bool = false;
+
     /// The identity of its grid graph; `None` if it serves every one.
     fn identity(&self) -> Option<Identity>;
 

@@ -183,6 +183,68 @@ fn all_moves<P: Placement>(graph: &GridGraph<P>, node: &ExpandedNode, goal: Vert
 }
 
 impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
+    /// The context of the jumps from a vertex that is no closed gap.
+    #[inline]
+    fn context<'c>(&'c self, graph: &'c GridGraph<P>, at: Vertex, goal: Vertex) -> JumpContext<'c, P> {
+        JumpContext {
+            graph,
+            pruning: &self.pruning,
+            goal,
+            rules: &self.rules,
+            stepwise: self.rules.stepwise,
+            to_goal: ToGoal::new(at.to(goal), graph.k()),
+        }
+    }
+
+    /// Whether closed gaps do not alter by which moves a path goes on that arrives at a vertex by a move.
+    #[cold]
+    fn is_far_from_gaps(&self, graph: &GridGraph<P>, (at, by): (Vertex, usize), goal: Vertex) -> bool {
+        !graph.is_closed_gap(at) && !self.pruning.is_exempt(graph, at, by, goal)
+    }
+
+    /// All jumps from a node, made. Returns the number of vertices scanned.
+    #[inline]
+    fn scan(
+        &self,
+        graph: &GridGraph<P>,
+        node: &ExpandedNode,
+        goal: Vertex,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
+    ) -> u32 {
+        let mut context = self.context(graph, node.at, goal);
+        // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the goal
+        // may be one.
+        context.stepwise |= graph.has_closed_gaps() && graph.is_closed_gap(node.at);
+        let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
+            return follow_stepwise(&context, node, visit);
+        };
+        let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None => all_moves(graph, node, goal),
+            Some(by) => table.successors(by, pattern_at(graph, node.at)),
+        };
+        let mut scanned = 0;
+        if moves >> context.to_goal.index & 1 == 1
+            && let Some(goal) = self.finder.goal_in_sight(&context, node, &mut scanned)
+        {
+            visit(goal);
+            return scanned;
+        }
+        Self::follow(&self.finder, &context, node, moves, visit) + scanned
+    }
+
+    /// [`scan`](Self::scan) where few nodes come to it: apart, so that the loop of the search has the
+    /// registers.
+    #[inline(never)]
+    fn scan_apart(
+        &self,
+        graph: &GridGraph<P>,
+        node: &ExpandedNode,
+        goal: Vertex,
+        visit: &mut impl FnMut(Successor) -> KnownPath,
+    ) -> u32 {
+        self.scan(graph, node, goal, visit)
+    }
+
     /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
     #[inline]
     fn follow(
@@ -219,8 +281,11 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         let keeps_intermediate = self.keeps_intermediate;
         // Where forced successors are unknown, a jump would end almost everywhere and find little.
         let limit = if self.pruning.knows_forced() { self.limit } else { 1 };
+        let stepwise = !prunes(graph) || graph.has_closed_gaps() && graph.is_closed_gap(goal);
+        let is_plain = limit == u32::MAX && !keeps_intermediate && !stepwise;
         self.rules = JumpRules {
-            stepwise: !prunes(graph) || graph.has_closed_gaps() && graph.is_closed_gap(goal),
+            stepwise,
+            looks_up: J::LOOKS_UP && is_plain && self.pruning.table().is_some(),
             limit,
             keeps_intermediate,
             has_other_nodes: keeps_intermediate || limit != u32::MAX || self.pruning.diagonals_may_force(),
@@ -236,37 +301,16 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         goal: Vertex,
         mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
-        let context = JumpContext {
-            graph,
-            pruning: &self.pruning,
-            goal,
-            rules: &self.rules,
-            // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
-            // goal may be one.
-            stepwise: self.rules.stepwise || graph.has_closed_gaps() && graph.is_closed_gap(node.at),
-            to_goal: ToGoal::new(node.at.to(goal), graph.k()),
-        };
-        let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
-            return follow_stepwise(&context, &node, &mut visit);
-        };
-        let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
-            None => all_moves(graph, &node, goal),
-            Some(by) => {
-                let looks_up = self.rules.are_plain();
-                if looks_up && self.finder.known_successors(&context, (&node, by), &mut visit) {
-                    return 0;
-                }
-                table.successors(by, pattern_at(graph, node.at))
-            }
-        };
-        let mut scanned = 0;
-        if moves >> context.to_goal.index & 1 == 1
-            && let Some(goal) = self.finder.goal_in_sight(&context, &node, &mut scanned)
-        {
-            visit(goal);
-            return scanned;
+        if !J::LOOKS_UP {
+            return self.scan(graph, &node, goal, &mut visit);
         }
-        Self::follow(&self.finder, &context, &node, moves, &mut visit) + scanned
+        if let Some(by) = node.by.filter(|_| self.rules.looks_up)
+            && (!graph.has_closed_gaps() || self.is_far_from_gaps(graph, (node.at, by), goal))
+            && self.finder.known_successors(&self.context(graph, node.at, goal), (&node, by), &mut visit)
+        {
+            return 0;
+        }
+        self.scan_apart(graph, &node, goal, &mut visit)
     }
 
     #[inline]

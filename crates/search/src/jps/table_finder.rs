@@ -14,6 +14,8 @@ use crate::successors::{ExpandedNode, KnownPath, Successor};
 /// Looks the jumps from jump points up. Where they are not known, it makes them as the
 /// [`BlockFinder`](super::BlockFinder) does.
 impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
+    const LOOKS_UP: bool = true;
+
     fn identity(&self) -> Option<Identity> {
         Some(JumpTable::identity(self))
     }
