@@ -1,6 +1,6 @@
 //! From the nodes of a finished search to the path that it found.
 
-use mediant_grid::{GridGraph, Placement, Vector, Vertex, VertexId};
+use mediant_grid::{GridGraph, Placement, Vertex, VertexId};
 use mediant_moves::Cost;
 
 use crate::{nodes::NodeStore, parent::ParentPointer, path::Path};
@@ -11,18 +11,16 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
     nodes: &NodeStore<N>,
     goal: VertexId,
 ) -> Path {
-    let mut legs = LegsBack::new(graph, nodes, goal);
     let (mut few, mut count) = ([Vertex::default(); FEW], 0);
-    for end in turns(&mut legs) {
+    let start = for_each_turn_back(graph, nodes, goal, |turn| {
         // From the last one on.
-        if let Some(place) = FEW.checked_sub(count + 1) {
-            few[place] = end;
+        if let Some(place) = few.get_mut(FEW.wrapping_sub(count + 1)) {
+            *place = turn;
         }
         count += 1;
-    }
+    });
     let mut waypoints = Vec::with_capacity(count + 1);
-    // The legs end at the start.
-    waypoints.push(legs.node.1);
+    waypoints.push(start);
     match FEW.checked_sub(count) {
         Some(first) => waypoints.extend_from_slice(&few[first..]),
         None => extend_back(graph, nodes, goal, &mut waypoints),
@@ -42,55 +40,41 @@ pub(crate) fn extend_back<P: Placement, N: ParentPointer>(
     waypoints: &mut Vec<Vertex>,
 ) {
     let first = waypoints.len();
-    waypoints.extend(turns(LegsBack::new(graph, nodes, goal)));
+    for_each_turn_back(graph, nodes, goal, |turn| waypoints.push(turn));
     waypoints[first..].reverse();
 }
 
-/// The straight legs of a path, from the goal back to the start: where each ends, and its move.
-struct LegsBack<'s, P: Placement, N: ParentPointer> {
-    graph: &'s GridGraph<P>,
-    nodes: &'s NodeStore<N>,
-    node: (VertexId, Vertex),
-    /// The first of two legs between a node and its parent, when the second has been returned.
-    pending: Option<(Vertex, Vector)>,
-}
-
-impl<'s, P: Placement, N: ParentPointer> LegsBack<'s, P, N> {
-    fn new(graph: &'s GridGraph<P>, nodes: &'s NodeStore<N>, goal: VertexId) -> Self {
-        Self { graph, nodes, node: (goal, graph.vertex(goal)), pending: None }
-    }
-}
-
-/// The ends of those legs after which the direction changes, the goal included.
-fn turns(legs: impl Iterator<Item = (Vertex, Vector)>) -> impl Iterator<Item = Vertex> {
-    let mut last = None;
-    legs.filter(move |&(_, v)| last.replace(v) != Some(v)).map(|(end, _)| end)
-}
-
-impl<P: Placement, N: ParentPointer> Iterator for LegsBack<'_, P, N> {
-    type Item = (Vertex, Vector);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if let Some(leg) = self.pending.take() {
-            return Some(leg);
+/// Calls `visit` with the goal, and back from there with each waypoint where the direction changes. Returns
+/// the start.
+#[inline]
+fn for_each_turn_back<P: Placement, N: ParentPointer>(
+    graph: &GridGraph<P>,
+    nodes: &NodeStore<N>,
+    goal: VertexId,
+    mut visit: impl FnMut(Vertex),
+) -> Vertex {
+    let (mut id, mut at, mut next) = (goal, graph.vertex(goal), None);
+    // Only a start costs nothing: no move does.
+    while let Some(node) = nodes.get(id).filter(|node| node.g != Cost::ZERO) {
+        let index = node.arrived_by();
+        let step = graph.step(index);
+        if next != Some(index) {
+            visit(at);
         }
-        let (id, at) = self.node;
-        // Only a start costs nothing: no move does.
-        let node = self.nodes.get(id).filter(|node| node.g != Cost::ZERO)?;
-        let step = self.graph.step(node.arrived_by());
-        self.node = node.pointer.parent(self.graph, step, id, at);
-        let (from, v) = (self.node.1, step.vector());
-        let d = from.to(at);
+        next = Some(index);
+        let (parent, from) = node.pointer.parent(graph, step, id, at);
+        let (v, d) = (step.vector(), from.to(at));
         let across = i64::from(v.x) * i64::from(d.y) - i64::from(v.y) * i64::from(d.x);
         if across != 0 {
             // Two legs in canonical order, the first by the odd move beside this even one. The intermediate
             // jump point between them is no node. Adjacent moves span a parallelogram of area 1: this is
             // Cramer's rule without its denominator.
-            let last = self.graph.steps().len() - 1;
-            let beside = if across > 0 { node.arrived_by().wrapping_sub(1) } else { node.arrived_by() + 1 };
-            let first = self.graph.step(beside & last).vector();
-            self.pending = Some((from + first * across.unsigned_abs() as i32, first));
+            let last = graph.steps().len() - 1;
+            let first = if across > 0 { index.wrapping_sub(1) } else { index + 1 } & last;
+            visit(from + graph.step(first).vector() * across.unsigned_abs() as i32);
+            next = Some(first);
         }
-        Some((at, v))
+        (id, at) = (parent, from);
     }
+    at
 }

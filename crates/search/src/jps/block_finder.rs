@@ -12,7 +12,7 @@ use super::{
     dead_ends::NearGoal,
     diagonals::DiagonalStops,
     error::JumpError,
-    finder::{JumpContext, JumpFinder},
+    finder::{JumpContext, JumpFinder, quarter},
     planes::JumpPlanes,
     repair::{Altered, Repair, Stop},
     to_goal::ToGoal,
@@ -149,20 +149,21 @@ impl BlockFinder {
     #[inline]
     pub(super) fn goal_beyond_turn<P: Placement>(
         &self,
-        context: &JumpContext<'_, P>,
+        graph: &GridGraph<P>,
         node: &ExpandedNode,
+        to_goal: &ToGoal,
     ) -> Option<Successor> {
-        let ToGoal { index, steps, then: (even, then_steps) } = context.to_goal;
-        let step = context.graph.step(index);
-        let (turn, cost) = (context.after(node, step, index, steps), step.cost * steps);
+        let ToGoal { index, steps, then: (even, then_steps) } = *to_goal;
+        let step = graph.step(index);
+        let (turn, cost) = (node.after(step, index, steps), step.cost * steps);
         if then_steps == 0 {
             return Some(turn.reached(cost, index));
         }
-        if self.axial.legal_steps(turn.at, context.quarter(even)) < then_steps {
+        if self.axial.legal_steps(turn.at, quarter(graph, even)) < then_steps {
             return None;
         }
-        let beside = context.graph.step(even);
-        let goal = context.after(&turn, beside, even, then_steps);
+        let beside = graph.step(even);
+        let goal = turn.after(beside, even, then_steps);
         Some(goal.reached(cost + beside.cost * then_steps, even))
     }
 
@@ -236,6 +237,6 @@ impl<P: Placement> JumpFinder<P> for BlockFinder {
         } else {
             self.axial.legal_steps(node.at, context.quarter(index)) >= steps
         };
-        if can_make { self.goal_beyond_turn(context, node) } else { None }
+        if can_make { self.goal_beyond_turn(context.graph, node, &context.to_goal) } else { None }
     }
 }

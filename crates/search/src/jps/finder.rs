@@ -126,17 +126,17 @@ pub trait JumpFinder<P: Placement>: Debug {
         None
     }
 
-    /// Calls `visit` with all successors of a node at which a path arrived by move `by`, if they are known
-    /// beforehand; false if they are not.
+    /// Calls `visit` with all successors of a node at which a path arrived by a move, if they are known
+    /// beforehand; false if they are not. Of the search it needs to know where dead ends count, and the goal.
     #[doc(hidden)]
     #[inline]
     fn known_successors(
         &self,
-        context: &JumpContext<'_, P>,
-        (node, by): (&ExpandedNode, usize),
+        search: (&GridGraph<P>, &NearGoal, Vertex),
+        node: (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
-        let _ = (context, node, by, visit);
+        let _ = (search, node, visit);
         false
     }
 }
@@ -145,9 +145,7 @@ impl<P: Placement> JumpContext<'_, P> {
     /// The even moves beside an odd one.
     #[inline]
     pub(crate) fn beside(&self, index: usize) -> [usize; 2] {
-        // The number of moves is a power of two.
-        let last = self.graph.steps().len() - 1;
-        [index.wrapping_sub(1) & last, (index + 1) & last]
+        beside(self.graph, index)
     }
 
     /// Whether a path that came to `from` may go on by move `index`.
@@ -171,12 +169,9 @@ impl<P: Placement> JumpContext<'_, P> {
         Some((d.x.unsigned_abs() + d.y.unsigned_abs()) / (v.x.unsigned_abs() + v.y.unsigned_abs()))
     }
 
-    /// The vertex `n` steps of move `index` away.
     #[inline]
     pub(crate) fn after(&self, from: &ExpandedNode, step: &Step, index: usize, n: u32) -> ExpandedNode {
-        let v = step.vector();
-        let at = Vertex::new(from.at.x + v.x * n as i32, from.at.y + v.y * n as i32);
-        ExpandedNode { id: step.target_after(from.id, n), at, by: Some(index) }
+        from.after(step, index, n)
     }
 
     /// An axial jump, step by step; several steps at once where obstacles are so far that none of these
@@ -259,7 +254,7 @@ impl<P: Placement> JumpContext<'_, P> {
     /// The direction number of an even move.
     #[inline]
     pub(super) fn quarter(&self, index: usize) -> usize {
-        index >> (self.graph.k().get() - 2)
+        quarter(self.graph, index)
     }
 
     /// A diagonal jump from stop to stop.
@@ -366,24 +361,52 @@ impl<P: Placement> JumpContext<'_, P> {
         turn
     }
 
-    /// Whether a diagonal jump ends at a vertex from which an axial jump of `n` steps by the even move
-    /// `index` leads to a vertex to which a path is known.
     #[inline]
-    pub(super) fn is_cut(&self, known: KnownPath, at: Vertex, index: usize, n: u32) -> bool {
-        known.gain() > self.graph.step(index).cost * (2 * n)
-            || known.parent().is_some_and(|parent| self.last_leg(parent, at, index) > n)
+    fn is_cut(&self, known: KnownPath, at: Vertex, index: usize, n: u32) -> bool {
+        is_cut(self.graph, known, (at, index), n)
     }
+}
 
-    /// How many steps of the even move `index` the path from a parent to a vertex ends with.
-    #[inline]
-    pub(super) fn last_leg(&self, parent: VertexId, at: Vertex, index: usize) -> u32 {
-        let (d, v) = (self.graph.vertex(parent).to(at), self.graph.step(index).vector());
-        let [before, after] = self.beside(index);
-        // As in `GoalLegs`, with the even move in the place of the odd one.
-        let across = cross(v, d);
-        let (odd, sign) = if across > 0 { (before, 1) } else { (after, -1) };
-        (cross(d, self.graph.step(odd).vector()) * sign).max(0) as u32
-    }
+/// The direction number of an even move.
+#[inline]
+pub(super) fn quarter<P: Placement>(graph: &GridGraph<P>, index: usize) -> usize {
+    index >> (graph.k().get() - 2)
+}
+
+/// The even moves beside an odd one.
+#[inline]
+fn beside<P: Placement>(graph: &GridGraph<P>, index: usize) -> [usize; 2] {
+    // The number of moves is a power of two.
+    let last = graph.steps().len() - 1;
+    [index.wrapping_sub(1) & last, (index + 1) & last]
+}
+
+/// Whether a diagonal jump ends at a vertex from which an axial jump of `n` steps by the even move `index`
+/// leads to a vertex to which a path is known.
+#[inline]
+pub(super) fn is_cut<P: Placement>(
+    graph: &GridGraph<P>,
+    known: KnownPath,
+    (at, index): (Vertex, usize),
+    n: u32,
+) -> bool {
+    known.gain() > graph.step(index).cost * (2 * n)
+        || known.parent().is_some_and(|parent| last_leg(graph, parent, (at, index)) > n)
+}
+
+/// How many steps of the even move `index` the path from a parent to a vertex ends with.
+#[inline]
+pub(super) fn last_leg<P: Placement>(
+    graph: &GridGraph<P>,
+    parent: VertexId,
+    (at, index): (Vertex, usize),
+) -> u32 {
+    let (d, v) = (graph.vertex(parent).to(at), graph.step(index).vector());
+    let [before, after] = beside(graph, index);
+    // As in `GoalLegs`, with the even move in the place of the odd one.
+    let across = cross(v, d);
+    let (odd, sign) = if across > 0 { (before, 1) } else { (after, -1) };
+    (cross(d, graph.step(odd).vector()) * sign).max(0) as u32
 }
 
 /// The answer of a diagonal jump at one of its vertices.
@@ -398,6 +421,14 @@ enum Turn {
 }
 
 impl ExpandedNode {
+    /// The vertex `n` steps of move `index` away.
+    #[inline]
+    pub(super) fn after(&self, step: &Step, index: usize, n: u32) -> Self {
+        let v = step.vector();
+        let at = Vertex::new(self.at.x + v.x * n as i32, self.at.y + v.y * n as i32);
+        Self { id: step.target_after(self.id, n), at, by: Some(index) }
+    }
+
     #[inline]
     pub(crate) fn reached(&self, cost: Cost, by: usize) -> Successor {
         Successor { id: self.id, at: self.at, cost, by }

@@ -1,11 +1,11 @@
 //! Jump lists: where all jumps from a jump point lead, found beforehand.
 //!
 //! Where the jumps from a jump point lead depends on the map, but for two things: a goal may lie on one of
-//! them, and near the goal they do not pass [dead ends](super::dead_ends). So a list says, for each move by
-//! which a path goes on from a jump point,
-//! - how often the move can be repeated, which tells whether the goal is in sight, and
-//! - the jump points to which the jumps by this move lead: those that hold everywhere, those that hold near
-//!   the goal alone, and those that hold elsewhere alone.
+//! them, and near the goal they do not pass [dead ends](super::dead_ends). So a list says
+//! - by which moves a path goes on from a jump point, and how often each of them can be repeated, which tells
+//!   whether the goal is in sight, and
+//! - the jump points to which its jumps lead: those that hold everywhere, those that hold near the goal
+//!   alone, and those that hold elsewhere alone.
 //!
 //! Lists are replayed by one loop that scans nothing. They belong to jump points where a path arrives by an
 //! even move; that is all of them, unless diagonal moves have forced successors. Jumps without a list are
@@ -22,15 +22,18 @@ mod record;
 mod repair;
 mod stale;
 
-use mediant_grid::{
-    Footprint, GridGraph, Interrupt, Interrupted, Placement, Vector, Versioned, Vertex, VertexId,
-};
+use mediant_grid::{Footprint, GridGraph, Interrupt, Interrupted, Placement, Versioned, Vertex, VertexId};
 use mediant_moves::Cost;
 
 pub(super) use self::record::Recorder;
 use super::{
-    DURING, axial::JumpPointRule, block_finder::BlockFinder, dead_ends::DeadEndRows, finder::JumpContext,
+    DURING,
+    axial::JumpPointRule,
+    block_finder::BlockFinder,
+    dead_ends::{DeadEndRows, NearGoal},
+    finder::is_cut,
     stop_rows::holds,
+    to_goal::ToGoal,
 };
 use crate::{
     canonical::prunes,
@@ -48,16 +51,16 @@ const FEW_WORDS: usize = 1 << 16;
 /// The jump lists of a grid graph with k ≤ 3.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct JumpLists {
-    legs: [Leg; 8],
-    /// Differences from an odd move's index to those of the even moves beside it, and to its own.
-    turns: [u8; 4],
+    routes: [Route; 16],
+    /// The columns of vertices.
+    width: u32,
     /// For each even move, by 64 vertices.
     places: Versioned<Place>,
     /// The places of a move.
     per_move: usize,
     /// Where lists begin among the words, for the lists of one place one after another.
     starts: Versioned<u32>,
-    /// Groups: a [`Group`], then its [`Jump`]s.
+    /// Lists: a [`Head`], how often its moves can be repeated, two to a word, then its [`Jump`]s.
     words: Versioned<u32>,
     size: Size,
 }
@@ -97,46 +100,68 @@ impl Place {
 /// The most steps that a word can say.
 const MOST_STEPS: u32 = (1 << 13) - 1;
 
-/// The head of the jumps by one move in a list.
+/// The head of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Group {
-    index: usize,
-    /// How often the move can be repeated.
-    length: u32,
+struct Head {
+    /// The moves by which a path goes on, a bit each.
+    moves: u8,
     /// The number of jumps.
-    count: u32,
+    jumps: u32,
 }
 
-impl Group {
-    /// The bit of the last group of a list.
-    const LAST: u32 = 1 << 28;
-
+impl Head {
     fn word(self) -> Option<u32> {
-        let fits = self.length <= MOST_STEPS && self.count < 1 << 15;
-        fits.then_some(self.length | self.count << 13 | (self.index as u32) << 29)
+        (self.jumps < 1 << 24).then_some(u32::from(self.moves) | self.jumps << 8)
     }
 
     #[inline]
     const fn of(word: u32) -> Self {
-        Self { index: (word >> 29) as usize, length: word & MOST_STEPS, count: word >> 13 & 0x7fff }
+        Self { moves: word as u8, jumps: word >> 8 }
+    }
+
+    /// Which of the moves a move is, in the order of their indices.
+    #[inline]
+    const fn rank(self, index: usize) -> usize {
+        BITS[(self.moves & ((1 << (index & 7)) - 1)) as usize] as usize
+    }
+
+    /// The words of the list before its jumps.
+    #[inline]
+    const fn words(self) -> usize {
+        1 + (BITS[self.moves as usize] as usize).div_ceil(2)
+    }
+
+    /// The words of the list.
+    #[inline]
+    const fn length(self) -> usize {
+        self.words() + self.jumps as usize
     }
 }
 
-/// A jump point to which the jumps by one move lead.
+/// The number of bits of a byte: many processors count them by an instruction that not all have.
+const BITS: [u8; 256] = {
+    let (mut bits, mut byte) = ([0; 256], 0);
+    while byte < 256 {
+        bits[byte] = (byte as u32).count_ones() as u8;
+        byte += 1;
+    }
+    bits
+};
+
+/// A jump point to which a jump leads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Jump {
-    /// How often the move is repeated.
+    /// The number of its [`Route`].
+    route: u32,
+    /// How often the first move is repeated.
     steps: u32,
-    /// Which of the two even moves beside it follows; [`NO_TURN`](Self::NO_TURN) for none.
-    then: u32,
-    /// How often that is repeated.
+    /// How often the second one is repeated.
     then_steps: u32,
     /// Where it leads there: [`NEAR_GOAL`](Self::NEAR_GOAL), [`ELSEWHERE`](Self::ELSEWHERE), or both.
     holds: u32,
 }
 
 impl Jump {
-    const NO_TURN: u32 = 2;
     /// Where dead ends count as jump points.
     const NEAR_GOAL: u32 = 1;
     /// Where they do not.
@@ -144,23 +169,79 @@ impl Jump {
 
     fn word(self) -> Option<u32> {
         let fits = self.steps <= MOST_STEPS && self.then_steps <= MOST_STEPS;
-        fits.then_some(self.steps | self.then_steps << 13 | self.then << 26 | self.holds << 28)
+        fits.then_some(self.steps | self.then_steps << 13 | self.route << 26 | self.holds << 30)
     }
 
     #[inline]
     const fn of(word: u32) -> Self {
         let (steps, then_steps) = (word & MOST_STEPS, word >> 13 & MOST_STEPS);
-        Self { steps, then: word >> 26 & 3, then_steps, holds: word >> 28 & 3 }
+        Self { route: word >> 26 & 15, steps, then_steps, holds: word >> 30 }
     }
 }
 
-/// A move: what a graph says of it, without checks of its index.
+/// The moves of a jump: an even one, an odd one and one of the two even ones beside it, or an odd one alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Leg {
-    v: Vector,
-    /// The difference of vertex ids along the move.
-    offset: i32,
-    cost: Cost,
+struct Route {
+    /// The two moves: their vectors as [`packed`] ones, 0 for none, and their costs.
+    vectors: [i64; 2],
+    costs: [Cost; 2],
+    /// The first move.
+    first: u8,
+    /// The last move.
+    by: u8,
+    turns: bool,
+    /// Whether the last move is along a column.
+    is_vertical: bool,
+}
+
+impl Route {
+    /// The number of the route by a move and the first or second one of the moves beside it.
+    const fn number(index: usize, turn: Option<usize>) -> u32 {
+        (match turn {
+            _ if index & 1 == 0 => index / 2,
+            Some(turn) => 4 + (index & !1) + turn,
+            None => 12 + index / 2,
+        }) as u32
+    }
+
+    /// All routes, by their numbers.
+    fn all<P: Placement>(graph: &GridGraph<P>) -> [Self; 16] {
+        let mut routes = [Self::default(); 16];
+        let moves = graph.steps().len();
+        for (first, step) in graph.steps().iter().enumerate() {
+            let (v, cost) = (step.vector(), step.cost);
+            let alone = Self {
+                vectors: [packed(v.x, v.y), 0],
+                costs: [cost, Cost::ZERO],
+                first: first as u8,
+                by: first as u8,
+                turns: false,
+                is_vertical: v.x == 0,
+            };
+            routes[Self::number(first, None) as usize] = alone;
+            for turn in 0..if first & 1 == 1 { 2 } else { 0 } {
+                let by = (first + moves - 1 + 2 * turn) % moves;
+                let (last, vectors) = (graph.step(by), alone.vectors);
+                let v = last.vector();
+                routes[Self::number(first, Some(turn)) as usize] = Self {
+                    vectors: [vectors[0], packed(v.x, v.y)],
+                    costs: [cost, last.cost],
+                    by: by as u8,
+                    turns: true,
+                    is_vertical: v.x == 0,
+                    ..alone
+                };
+            }
+        }
+        routes
+    }
+}
+
+/// Two coordinates in one number. Sums and multiples of such numbers are those of sums and multiples of the
+/// vectors, and where x is not negative, its bits are the lower half.
+#[inline]
+const fn packed(x: i32, y: i32) -> i64 {
+    ((y as i64) << 32) + x as i64
 }
 
 impl JumpLists {
@@ -179,12 +260,7 @@ impl JumpLists {
         let Some(points) = jump_points(graph, dead_ends, most, interrupt)? else {
             return Ok(Self::none(Self::most_words(graph)));
         };
-        let mut legs = [Leg::default(); 8];
-        for (leg, step) in legs.iter_mut().zip(graph.steps()) {
-            let offset = step.target(VertexId(0)).0 as i32;
-            *leg = Leg { v: step.vector(), offset, cost: step.cost };
-        }
-        let turns = [graph.steps().len() as u8 - 1, 1, 0, 0];
+        let routes = Route::all(graph);
         let per_move = vertices.div_ceil(64);
         let mut places = vec![Place::default(); graph.steps().len() / 2 * per_move];
         let (mut starts, mut words) = (Vec::new(), Vec::new());
@@ -216,7 +292,7 @@ impl JumpLists {
         }
         let size = Size { starts: starts.len(), words: words.len(), live: starts.len() + words.len(), most };
         let (places, starts, words) = (places.into(), starts.into(), words.into());
-        Ok(Self { legs, turns, places, per_move, starts, words, size })
+        Ok(Self { routes, width, places, per_move, starts, words, size })
     }
 
     /// Where nothing is pruned, no jump is made.
@@ -250,7 +326,7 @@ impl JumpLists {
     #[inline]
     pub(super) fn visit<P: Placement>(
         &self,
-        context: &JumpContext<'_, P>,
+        (graph, near, goal): (&GridGraph<P>, &NearGoal, Vertex),
         blocks: &BlockFinder,
         (node, by): (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
@@ -258,42 +334,54 @@ impl JumpLists {
         if by & 1 == 1 {
             return false;
         }
-        let Some(mut list) = self.get(node.id, by) else { return false };
-        let last_move = usize::from(self.turns[0]);
-        while let Some((&head, rest)) = list.split_first() {
-            let Group { index, length, count } = Group::of(head);
-            let Some((jumps, rest)) = rest.split_at_checked(count as usize) else { break };
-            list = rest;
-            let way = &context.to_goal;
-            if (way.index == index) & (way.steps <= length)
-                && let Some(goal) = blocks.goal_beyond_turn(context, node)
+        let Some(words) = self.get(node.id, by) else { return false };
+        let Some(head) = words.first().map(|&word| Head::of(word)) else { return false };
+        let way = ToGoal::new(node.at.to(goal), graph.k());
+        if head.moves >> (way.index & 7) & 1 == 1 {
+            let rank = head.rank(way.index);
+            let lengths = words.get(1 + rank / 2).map_or(0, |&lengths| lengths >> (16 * (rank & 1)));
+            if way.steps <= lengths & MOST_STEPS
+                && let Some(goal) = blocks.goal_beyond_turn(graph, node, &way)
             {
                 visit(goal);
                 return true;
             }
-            let first = &self.legs[index & 7];
-            for &word in jumps {
-                let Jump { steps, then, then_steps, holds } = Jump::of(word);
-                let even = (index + usize::from(self.turns[then as usize & 3])) & last_move;
-                let last = &self.legs[even & 7];
-                let (n, m) = (steps as i32, then_steps as i32);
-                let at = node.at + first.v * n + last.v * m;
-                let is_near = context.rules.near.along(at, last.v.x == 0);
-                if holds & if is_near { Jump::NEAR_GOAL } else { Jump::ELSEWHERE } == 0 {
-                    continue;
-                }
-                let id = node.id.0.wrapping_add_signed(first.offset * n + last.offset * m);
-                let cost = first.cost * steps + last.cost * then_steps;
-                let known = visit(Successor { id: VertexId(id), at, cost, by: even });
-                if then != Jump::NO_TURN && context.is_cut(known, at, even, then_steps) {
-                    break;
-                }
+        }
+        let mut left = words.get(head.words()..head.length()).unwrap_or_default();
+        let from = packed(node.at.x, node.at.y);
+        while let Some((&word, rest)) = left.split_first() {
+            left = rest;
+            let Jump { route, steps, then_steps, holds } = Jump::of(word);
+            let route = &self.routes[route as usize];
+            let (first, last) = (i64::from(steps), i64::from(then_steps));
+            let at = from + route.vectors[0] * first + route.vectors[1] * last;
+            let at = Vertex::new(at as i32, (at >> 32) as i32);
+            let is_near = near.along(at, route.is_vertical);
+            if holds & if is_near { Jump::NEAR_GOAL } else { Jump::ELSEWHERE } == 0 {
+                continue;
             }
-            if head & Group::LAST != 0 {
-                break;
+            let id = VertexId((at.y as u32).wrapping_mul(self.width).wrapping_add(at.x as u32));
+            let cost = route.costs[0] * steps + route.costs[1] * then_steps;
+            let known = visit(Successor { id, at, cost, by: usize::from(route.by) });
+            if route.turns && known != KnownPath::NONE && self.is_cut(graph, known, (at, word)) {
+                // The other jumps by this move come later on its way.
+                let is_other = |word: &u32| self.routes[Jump::of(*word).route as usize].first == route.first;
+                left = &left[left.iter().take_while(|word| is_other(word)).count()..];
             }
         }
         true
+    }
+
+    /// Whether a diagonal jump ends where a path to one of its jump points is known.
+    #[inline(never)]
+    fn is_cut<P: Placement>(
+        &self,
+        graph: &GridGraph<P>,
+        known: KnownPath,
+        (at, word): (Vertex, u32),
+    ) -> bool {
+        let Jump { route, then_steps, .. } = Jump::of(word);
+        is_cut(graph, known, (at, usize::from(self.routes[route as usize].by)), then_steps)
     }
 
     /// All lists in the order of their moves and vertices, each by its place and bit.
@@ -318,7 +406,7 @@ impl JumpLists {
             Some(start)
         });
         let (count, end) = (self.starts.len(), self.words.len() as u32);
-        starts.chain((count > 0).then_some(end)).chain(self.all().flat_map(|(.., list)| unmarked(list)))
+        starts.chain((count > 0).then_some(end)).chain(self.all().flat_map(|(.., list)| list.iter().copied()))
     }
 
     /// To which vertex and arriving move one of the [`words`](Self::words) belongs; an end belongs to the
@@ -372,29 +460,8 @@ impl JumpLists {
 /// The list that starts at a word.
 fn list_from(words: &[u32], start: u32) -> &[u32] {
     let words = words.get(start as usize..).unwrap_or_default();
-    let mut length = 0;
-    while let Some(&head) = words.get(length) {
-        length += 1 + Group::of(head).count as usize;
-        if head & Group::LAST != 0 {
-            break;
-        }
-    }
+    let length = words.first().map_or(0, |&word| Head::of(word).length());
     words.get(..length).unwrap_or(words)
-}
-
-/// The words of a list, where it is not said which group is the last one.
-fn unmarked(list: &[u32]) -> impl Iterator<Item = u32> {
-    let mut jumps = 0;
-    list.iter().map(move |&word| match jumps {
-        0 => {
-            jumps = Group::of(word).count;
-            word & !Group::LAST
-        }
-        _ => {
-            jumps -= 1;
-            word
-        }
-    })
 }
 
 /// The rows of a map, for each even move.

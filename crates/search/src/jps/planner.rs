@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
 use mediant_moves::KError;
 
 use super::{
@@ -238,11 +238,11 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
     fn scan_apart(
         &self,
         graph: &GridGraph<P>,
-        node: &ExpandedNode,
+        (id, at, by): (VertexId, Vertex, Option<usize>),
         goal: Vertex,
         visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
-        self.scan(graph, node, goal, visit)
+        self.scan(graph, &ExpandedNode { id, at, by }, goal, visit)
     }
 
     /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
@@ -306,11 +306,11 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         }
         if let Some(by) = node.by.filter(|_| self.rules.looks_up)
             && (!graph.has_closed_gaps() || self.is_far_from_gaps(graph, (node.at, by), goal))
-            && self.finder.known_successors(&self.context(graph, node.at, goal), (&node, by), &mut visit)
+            && self.finder.known_successors((graph, &self.rules.near, goal), (&node, by), &mut visit)
         {
             return 0;
         }
-        self.scan_apart(graph, &node, goal, &mut visit)
+        self.scan_apart(graph, (node.id, node.at, node.by), goal, &mut visit)
     }
 
     #[inline]

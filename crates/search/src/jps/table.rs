@@ -133,7 +133,7 @@ impl JumpTable {
     }
 
     /// The version of the format of [`to_bytes`](Self::to_bytes).
-    pub const VERSION: u32 = 5;
+    pub const VERSION: u32 = 6;
 
     /// The table as bytes: what it belongs to, then the lists. [`from_bytes`](Self::from_bytes) reads them,
     /// and makes the rest from the map. The bytes of a repaired table are those of no list: then it makes

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Placement, Vertex};
+use mediant_grid::{GridGraph, Identity, Placement, Vertex};
 
 use super::{
     dead_ends::NearGoal,
@@ -60,10 +60,10 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
     #[inline]
     fn known_successors(
         &self,
-        context: &JumpContext<'_, P>,
+        search: (&GridGraph<P>, &NearGoal, Vertex),
         node: (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> bool {
-        self.lists().visit(context, self.blocks(), node, visit)
+        self.lists().visit(search, self.blocks(), node, visit)
     }
 }

@@ -63,11 +63,13 @@ impl ToGoal {
         }
         let (vertical, horizontal) = (if d.y > 0 { 0 } else { 4 }, if d.x > 0 { 2 } else { 6 });
         let (even, diagonal) = if x > y { (horizontal, y) } else { (vertical, x) };
+        let then = (even, x.abs_diff(y));
         if diagonal == 0 {
             return Self { index: even, steps: x + y, then: (even, 0) };
         }
-        let odd = if vertical + horizontal == 6 && vertical == 0 { 7 } else { (vertical + horizontal) / 2 };
-        Self { index: odd, steps: diagonal, then: (even, x.abs_diff(y)) }
+        // The odd move between them, by the signs, four bits each.
+        let signs = u32::from(d.y > 0) | u32::from(d.x > 0) << 1;
+        Self { index: (0x1375 >> (4 * signs) & 7) as usize, steps: diagonal, then }
     }
 
     /// The number of steps to the goal by an even move, if it is straight ahead.

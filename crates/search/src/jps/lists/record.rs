@@ -8,7 +8,7 @@ use super::{
         finder::{JumpContext, JumpRules, in_order},
         to_goal::ToGoal,
     },
-    Group, Jump,
+    Head, Jump, MOST_STEPS, Route,
 };
 use crate::{
     canonical::{Pruning, pattern_at},
@@ -26,33 +26,31 @@ impl<P: Placement> Recorder<'_, P> {
     /// Adds the list of a node; `None`, with nothing added, if it has none or a word cannot say it.
     pub(super) fn record(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<()> {
         let start = words.len();
-        let last = self.groups(node, by, words);
-        match last {
-            Some(last) => words[last] |= Group::LAST,
-            None => words.truncate(start),
+        let recorded = self.add(node, by, words);
+        if recorded.is_none() {
+            words.truncate(start);
         }
-        last.map(|_| ())
+        recorded
     }
 
-    /// Adds the groups of a list. Returns the place of the last one.
-    fn groups(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<usize> {
+    fn add(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<()> {
         let table = self.pruning.table()?;
         let moves = table.successors(by, pattern_at(self.graph, node.at));
-        let mut last = None;
+        let (start, head) = (words.len(), Head { moves, jumps: 0 });
+        words.resize(start + head.words(), 0);
         for mut left in in_order(moves) {
             while left != 0 {
                 let index = left.trailing_zeros() as usize;
                 left &= left - 1;
-                let head = words.len();
-                words.push(0);
-                let jumps = |jump: Jump| jump.word().map(|word| words.push(word));
-                let length = self.jumps(node, index, jumps)?;
-                let count = (words.len() - head - 1) as u32;
-                words[head] = Group { index, length, count }.word()?;
-                last = Some(head);
+                let jump = |jump: Jump| jump.word().map(|word| words.push(word));
+                let length = self.jumps(node, index, jump).filter(|&length| length <= MOST_STEPS)?;
+                let rank = head.rank(index);
+                words[start + 1 + rank / 2] |= length << (16 * (rank & 1));
             }
         }
-        last
+        let jumps = (words.len() - start - head.words()) as u32;
+        words[start] = Head { jumps, ..head }.word().filter(|_| moves != 0)?;
+        Some(())
     }
 
     /// Calls `visit` with the jumps by a move, until it says `None`. Returns how often the move can be
@@ -64,9 +62,10 @@ impl<P: Placement> Recorder<'_, P> {
         mut visit: impl FnMut(Jump) -> Option<()>,
     ) -> Option<u32> {
         let (context, diagonals_may_force) = (self.context(node), self.pruning.diagonals_may_force());
+        let alone = Route::number(index, None);
         if index & 1 == 0 {
             let quarter = context.quarter(index);
-            let jump = |steps, holds| visit(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds });
+            let jump = |steps, holds| visit(Jump { route: alone, steps, then_steps: 0, holds });
             self.axial((node.at, quarter), jump)?;
             return Some(self.blocks.axial_stops().legal_steps(node.at, quarter));
         }
@@ -86,13 +85,14 @@ impl<P: Placement> Recorder<'_, P> {
             let at = node.at + step.vector() * steps as i32;
             if diagonals_may_force && self.pruning.has_forced_at(pattern_at(self.graph, at), index) {
                 let holds = Jump::NEAR_GOAL | Jump::ELSEWHERE;
-                visit(Jump { steps, then: Jump::NO_TURN, then_steps: 0, holds })?;
+                visit(Jump { route: alone, steps, then_steps: 0, holds })?;
                 is_ended = true;
                 continue;
             }
-            for (then, (even, leads)) in (0..).zip(beside.into_iter().zip(leads)) {
+            for (turn, (even, leads)) in (0..).zip(beside.into_iter().zip(leads)) {
                 if leads {
-                    let jump = |then_steps, holds| visit(Jump { steps, then, then_steps, holds });
+                    let route = Route::number(index, Some(turn));
+                    let jump = |then_steps, holds| visit(Jump { route, steps, then_steps, holds });
                     self.axial((at, context.quarter(even)), jump)?;
                 }
             }

@@ -170,7 +170,7 @@ impl JumpLists {
         let needed = [runs().map(starts).sum(), words.len()];
         let has_room = self.size.starts + needed[0] <= self.starts.len()
             && self.size.words + needed[1] <= self.words.len();
-        let Self { legs, turns, per_move, size, .. } = *self;
+        let Self { routes, width, per_move, size, .. } = *self;
         let mut edit = if has_room {
             let (starts, words) = (self.starts.edit(), self.words.edit());
             Edit { places: self.places.edit(), starts, words, size }
@@ -180,7 +180,7 @@ impl JumpLists {
         runs().for_each(|run| edit.replace(run, words));
         let Edit { places, starts, words, size } = edit;
         let (places, starts, words) = (places.finish(), starts.finish(), words.finish());
-        Self { legs, turns, places, per_move, starts, words, size }
+        Self { routes, width, places, per_move, starts, words, size }
     }
 
     /// An edit of these lists put together, with room for so many more starts and words, and for some edits.

@@ -352,7 +352,7 @@ fn lists_stay_within_their_limit() {
     let first = first_table();
     let most = words(&first.lists().listed()) / 2;
     let (mut last, mut fewer, mut longest) = (usize::MAX, 0, 0.0_f64);
-    chain(1_000, first.with_list_limit(most), |edit, graph, table| {
+    chain(1_200, first.with_list_limit(most), |edit, graph, table| {
         let lists = table.lists().listed();
         let used = words(&lists);
         assert!(used <= last.max(most), "edit {edit}: {used}, {last}");
