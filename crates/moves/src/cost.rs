@@ -176,7 +176,8 @@ mod table {
                 index = 2 * index + usize::from(beyond);
                 (x, y) = if beyond { (x - y, y) } else { (x, y - x) };
             }
-            self.costs[index] * y + self.costs[index + 1] * x
+            let pair = &self.costs[index..index + 2];
+            pair[0] * y + pair[1] * x
         }
 
         /// h_k of a displacement that need not be whole, with coordinates below 2¹⁶ in magnitude: in cells,
