@@ -59,6 +59,7 @@ mod line_path;
 mod metric;
 mod nodes;
 mod observer;
+mod open_front;
 mod open_list;
 mod parent;
 pub mod parts;

@@ -180,18 +180,46 @@ impl<N: ParentPointer> NodeStore<N> {
         arrived_by: usize,
         pointer: N,
     ) -> NodePlace {
+        let generation = self.generation;
+        let (place, words) = self.words_at(place, id);
+        Self::write(generation, words, (g, arrived_by, pointer));
+        NodePlace(place)
+    }
+
+    /// [`set_path_at`](Self::set_path_at) of a node whose slot in the open list is 0.
+    #[inline]
+    pub(crate) fn open_at(
+        &mut self,
+        (NodePlace(place), id): (NodePlace, VertexId),
+        path: (Cost, usize, N),
+    ) -> NodePlace {
+        let generation = self.generation;
+        let (place, words) = self.words_at(place, id);
+        Self::write(generation, words, path);
+        if let [_, _, slot, ..] = words.as_mut() {
+            *slot = 0;
+        }
+        NodePlace(place)
+    }
+
+    /// The words of a node at a place, which it is given if it has none yet.
+    #[inline]
+    fn words_at(&mut self, place: usize, id: VertexId) -> (usize, &mut N::Words) {
+        let place = if N::IS_FOR_JUMPS && place < BLOCK { self.add_block(id) } else { place };
+        (place, &mut self.nodes[place])
+    }
+
+    #[inline]
+    fn write(generation: u32, words: &mut N::Words, (g, arrived_by, pointer): (Cost, usize, N)) {
         debug_assert!(
             arrived_by < 1 << Node::<N>::MOVE_BITS,
             "no move of any graph has the index {arrived_by}"
         );
-        let place = if N::IS_FOR_JUMPS && place < BLOCK { self.add_block(id) } else { place };
-        let words = &mut self.nodes[place];
         pointer.write(words);
         if let [low, high, _, mark, ..] = words.as_mut() {
             (*low, *high) = (g.to_bits() as u32, (g.to_bits() >> 32) as u32);
-            *mark = self.generation << Node::<N>::MOVE_BITS | arrived_by as u32;
+            *mark = generation << Node::<N>::MOVE_BITS | arrived_by as u32;
         }
-        NodePlace(place)
     }
 
     /// Records the slot of a vertex in the open list.

@@ -60,6 +60,13 @@ pub trait Observer {
         let _ = swaps;
     }
 
+    /// Whether it is to be told of [swaps](Self::percolated) in the open list's heap: a search need not keep
+    /// all open nodes in a heap otherwise. The answer is always the same.
+    #[inline]
+    fn counts_swaps(&self) -> bool {
+        true
+    }
+
     /// A hierarchical search left its plan, which led nowhere or only by a detour.
     #[inline]
     fn fell_back(&mut self) {}
@@ -90,7 +97,12 @@ pub trait Observer {
 }
 
 /// The observer that does nothing.
-impl Observer for () {}
+impl Observer for () {
+    #[inline]
+    fn counts_swaps(&self) -> bool {
+        false
+    }
+}
 
 impl<O: Observer + ?Sized> Observer for &mut O {
     #[inline]
@@ -116,6 +128,11 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     #[inline]
     fn scanned(&mut self, vertices: u32) {
         (**self).scanned(vertices);
+    }
+
+    #[inline]
+    fn counts_swaps(&self) -> bool {
+        (**self).counts_swaps()
     }
 
     #[inline]
@@ -179,6 +196,11 @@ impl<O: Observer> Observer for Part<'_, O> {
     #[inline]
     fn scanned(&mut self, vertices: u32) {
         self.observer.scanned(vertices);
+    }
+
+    #[inline]
+    fn counts_swaps(&self) -> bool {
+        self.observer.counts_swaps()
     }
 
     #[inline]

@@ -58,7 +58,7 @@ impl Entry {
     /// The same entry with a path that is cheaper by `gain`.
     #[must_use]
     #[inline]
-    const fn cheaper_by(self, gain: Cost) -> Self {
+    pub(crate) const fn cheaper_by(self, gain: Cost) -> Self {
         let f = self.f().to_bits().saturating_sub(gain.to_bits());
         Self((f as u128) << 64 | self.0 as u64 as u128)
     }

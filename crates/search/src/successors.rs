@@ -79,6 +79,18 @@ impl KnownPath {
     }
 }
 
+/// What is known of the successors of a node.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub enum LookUp {
+    /// Nothing.
+    Unknown,
+    /// All of them were visited.
+    Visited,
+    /// No other one need be visited.
+    Goal(Successor),
+}
+
 /// How a search expands its nodes. `P` is the placement.
 ///
 /// A search with successors of one's own: see
@@ -108,6 +120,21 @@ pub trait Successors<P: Placement>: Debug {
         goal: Vertex,
         visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32;
+
+    /// Calls `visit` with each successor of a node, as [`for_each`](Self::for_each) does, if they are known
+    /// beforehand. If the goal is one of them, and no path to it is cheaper, it may say so instead.
+    #[doc(hidden)]
+    #[inline]
+    fn look_up(
+        &self,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
+        goal: Vertex,
+        visit: impl FnMut(Successor) -> KnownPath,
+    ) -> LookUp {
+        let _ = (graph, node, goal, visit);
+        LookUp::Unknown
+    }
 
     /// Whether a path to a vertex whose last move is `new` replaces the known path, of the same cost, whose
     /// last move is `known`. A closed node is then expanded again.

@@ -29,7 +29,7 @@ pub(crate) fn trace_back<P: Placement, N: ParentPointer>(
 }
 
 /// As many waypoints as most paths have. Longer paths are gone through twice.
-const FEW: usize = 16;
+const FEW: usize = 32;
 
 /// Adds the waypoints of the path that a search found, without its start. Waypoints stand where the direction
 /// changes.

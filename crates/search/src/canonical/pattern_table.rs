@@ -19,6 +19,8 @@ const _: () = assert!(Centers::PATTERNS == 512 && Corners::PATTERNS <= 512);
 #[derive(Clone, Debug)]
 pub(crate) struct PatternTable {
     successors: Box<[u8]>,
+    /// For each pattern the legal moves.
+    legal: Box<[u8]>,
     patterns: usize,
     /// For each arriving move, those that follow it on open ground.
     natural: [u8; 8],
@@ -33,10 +35,14 @@ impl PatternTable {
             .collect();
         let mut table = Self {
             successors: vec![0; count * P::PATTERNS].into_boxed_slice(),
+            legal: vec![0; P::PATTERNS].into_boxed_slice(),
             patterns: P::PATTERNS,
             natural: [0; 8],
             diagonals_may_force: false,
         };
+        for (b, legal) in legal.iter().enumerate() {
+            legal.for_each(|pattern| table.legal[pattern] |= 1 << b);
+        }
         for (a, successors) in table.successors.chunks_exact_mut(P::PATTERNS).enumerate() {
             for b in natural(a, count) {
                 table.natural[a] |= 1 << b;
@@ -70,6 +76,12 @@ impl PatternTable {
         self.successors.get(by * self.patterns + pattern).copied().unwrap_or(0)
     }
 
+    /// The legal moves where the cells form `pattern`.
+    #[inline]
+    pub(crate) fn legal(&self, pattern: usize) -> u8 {
+        self.legal.get(pattern).copied().unwrap_or(0)
+    }
+
     /// The forced ones of these successors.
     #[inline]
     pub(crate) fn forced(&self, by: usize, successors: u8) -> u8 {
@@ -82,7 +94,7 @@ impl PatternTable {
     }
 
     pub(crate) fn memory_bytes(&self) -> usize {
-        size_of_val(&*self.successors)
+        size_of_val(&*self.successors) + size_of_val(&*self.legal)
     }
 }
 

@@ -23,8 +23,6 @@
 
 pub(super) mod find;
 
-use std::hint::select_unpredictable;
-
 use mediant_grid::{Vector, Vertex};
 
 use super::axial::AxialStops;
@@ -35,8 +33,8 @@ pub(super) const REACH: u32 = 16;
 /// Where dead ends may hold the goal: jumps along these rows and columns do not pass them.
 #[derive(Clone, Copy, Debug)]
 pub struct NearGoal {
-    rows: Band,
-    columns: Band,
+    /// Of rows, and of columns.
+    bands: [Band; 2],
 }
 
 /// The numbers from `first` on, `more` beyond that.
@@ -73,7 +71,7 @@ impl NearGoal {
     /// Dead ends are nowhere passed.
     pub(super) const EVERYWHERE: Self = {
         let all = Band { first: i32::MIN, more: u32::MAX };
-        Self { rows: all, columns: all }
+        Self { bands: [all; 2] }
     };
 
     /// The rows and columns within `reach` of the goal's cross.
@@ -83,30 +81,28 @@ impl NearGoal {
             first: at - (before + reach) as i32,
             more: before + after + 2 * reach,
         };
-        Self { rows: band(goal.y, up, down), columns: band(goal.x, left, right) }
+        Self { bands: [band(goal.y, up, down), band(goal.x, left, right)] }
     }
 
     /// Whether an axial jump from a vertex in direction `quarter` is along a row or column near the goal.
     #[inline]
     pub(super) const fn holds(&self, from: Vertex, quarter: usize) -> bool {
-        if quarter.is_multiple_of(2) { self.columns.holds(from.x) } else { self.rows.holds(from.y) }
+        let [rows, columns] = self.bands;
+        if quarter.is_multiple_of(2) { columns.holds(from.x) } else { rows.holds(from.y) }
     }
 
-    /// The same for a vertical or horizontal jump, without a branch: it could not be predicted.
+    /// The same for a jump along a row (0) or a column (1), by its number. It takes no branch: that could not
+    /// be predicted.
     #[inline]
-    pub(super) fn along(&self, at: Vertex, is_vertical: bool) -> bool {
-        let band = select_unpredictable(is_vertical, self.columns, self.rows);
-        band.holds(select_unpredictable(is_vertical, at.x, at.y))
+    pub(super) const fn along(&self, line: (usize, i32)) -> bool {
+        self.bands[line.0 & 1].holds(line.1)
     }
 
     /// The same for jumps from 64 vertices, the first one and those that follow it by diagonal moves `v`.
     #[inline]
     pub(super) const fn along_diagonal(&self, first: Vertex, v: Vector, quarter: usize) -> u64 {
-        if quarter.is_multiple_of(2) {
-            self.columns.of(first.x, v.x > 0)
-        } else {
-            self.rows.of(first.y, v.y > 0)
-        }
+        let [rows, columns] = self.bands;
+        if quarter.is_multiple_of(2) { columns.of(first.x, v.x > 0) } else { rows.of(first.y, v.y > 0) }
     }
 }
 

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     canonical::Pruning,
-    successors::{ExpandedNode, KnownPath, Successor},
+    successors::{ExpandedNode, KnownPath, LookUp, Successor},
 };
 
 /// The graph, goal and rules for the jumps from one node.
@@ -127,7 +127,8 @@ pub trait JumpFinder<P: Placement>: Debug {
     }
 
     /// Calls `visit` with all successors of a node at which a path arrived by a move, if they are known
-    /// beforehand; false if they are not. Of the search it needs to know where dead ends count, and the goal.
+    /// beforehand and the goal is not in sight. Of the search it needs to know where dead ends count as jump
+    /// points, and the goal.
     #[doc(hidden)]
     #[inline]
     fn known_successors(
@@ -135,9 +136,9 @@ pub trait JumpFinder<P: Placement>: Debug {
         search: (&GridGraph<P>, &NearGoal, Vertex),
         node: (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
-    ) -> bool {
+    ) -> LookUp {
         let _ = (search, node, visit);
-        false
+        LookUp::Unknown
     }
 }
 
@@ -169,6 +170,7 @@ impl<P: Placement> JumpContext<'_, P> {
         Some((d.x.unsigned_abs() + d.y.unsigned_abs()) / (v.x.unsigned_abs() + v.y.unsigned_abs()))
     }
 
+    /// The vertex `n` steps of move `index` away.
     #[inline]
     pub(crate) fn after(&self, from: &ExpandedNode, step: &Step, index: usize, n: u32) -> ExpandedNode {
         from.after(step, index, n)

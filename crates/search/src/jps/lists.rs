@@ -21,11 +21,12 @@
 mod record;
 mod repair;
 mod stale;
+mod words;
 
 use mediant_grid::{Footprint, GridGraph, Interrupt, Interrupted, Placement, Versioned, Vertex, VertexId};
-use mediant_moves::Cost;
 
 pub(super) use self::record::Recorder;
+use self::words::{Head, Jump, MOST_STEPS, Route, packed};
 use super::{
     DURING,
     axial::JumpPointRule,
@@ -37,7 +38,7 @@ use super::{
 };
 use crate::{
     canonical::prunes,
-    successors::{ExpandedNode, KnownPath, Successor},
+    successors::{ExpandedNode, KnownPath, LookUp, Successor},
 };
 
 /// With more lists than one for so many vertices there are none, as in noise: there they take more memory
@@ -95,153 +96,6 @@ impl Place {
     const fn bits(self) -> u64 {
         self.has[0] as u64 | (self.has[1] as u64) << 32
     }
-}
-
-/// The most steps that a word can say.
-const MOST_STEPS: u32 = (1 << 13) - 1;
-
-/// The head of a list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Head {
-    /// The moves by which a path goes on, a bit each.
-    moves: u8,
-    /// The number of jumps.
-    jumps: u32,
-}
-
-impl Head {
-    fn word(self) -> Option<u32> {
-        (self.jumps < 1 << 24).then_some(u32::from(self.moves) | self.jumps << 8)
-    }
-
-    #[inline]
-    const fn of(word: u32) -> Self {
-        Self { moves: word as u8, jumps: word >> 8 }
-    }
-
-    /// Which of the moves a move is, in the order of their indices.
-    #[inline]
-    const fn rank(self, index: usize) -> usize {
-        BITS[(self.moves & ((1 << (index & 7)) - 1)) as usize] as usize
-    }
-
-    /// The words of the list before its jumps.
-    #[inline]
-    const fn words(self) -> usize {
-        1 + (BITS[self.moves as usize] as usize).div_ceil(2)
-    }
-
-    /// The words of the list.
-    #[inline]
-    const fn length(self) -> usize {
-        self.words() + self.jumps as usize
-    }
-}
-
-/// The number of bits of a byte: many processors count them by an instruction that not all have.
-const BITS: [u8; 256] = {
-    let (mut bits, mut byte) = ([0; 256], 0);
-    while byte < 256 {
-        bits[byte] = (byte as u32).count_ones() as u8;
-        byte += 1;
-    }
-    bits
-};
-
-/// A jump point to which a jump leads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Jump {
-    /// The number of its [`Route`].
-    route: u32,
-    /// How often the first move is repeated.
-    steps: u32,
-    /// How often the second one is repeated.
-    then_steps: u32,
-    /// Where it leads there: [`NEAR_GOAL`](Self::NEAR_GOAL), [`ELSEWHERE`](Self::ELSEWHERE), or both.
-    holds: u32,
-}
-
-impl Jump {
-    /// Where dead ends count as jump points.
-    const NEAR_GOAL: u32 = 1;
-    /// Where they do not.
-    const ELSEWHERE: u32 = 2;
-
-    fn word(self) -> Option<u32> {
-        let fits = self.steps <= MOST_STEPS && self.then_steps <= MOST_STEPS;
-        fits.then_some(self.steps | self.then_steps << 13 | self.route << 26 | self.holds << 30)
-    }
-
-    #[inline]
-    const fn of(word: u32) -> Self {
-        let (steps, then_steps) = (word & MOST_STEPS, word >> 13 & MOST_STEPS);
-        Self { route: word >> 26 & 15, steps, then_steps, holds: word >> 30 }
-    }
-}
-
-/// The moves of a jump: an even one, an odd one and one of the two even ones beside it, or an odd one alone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Route {
-    /// The two moves: their vectors as [`packed`] ones, 0 for none, and their costs.
-    vectors: [i64; 2],
-    costs: [Cost; 2],
-    /// The first move.
-    first: u8,
-    /// The last move.
-    by: u8,
-    turns: bool,
-    /// Whether the last move is along a column.
-    is_vertical: bool,
-}
-
-impl Route {
-    /// The number of the route by a move and the first or second one of the moves beside it.
-    const fn number(index: usize, turn: Option<usize>) -> u32 {
-        (match turn {
-            _ if index & 1 == 0 => index / 2,
-            Some(turn) => 4 + (index & !1) + turn,
-            None => 12 + index / 2,
-        }) as u32
-    }
-
-    /// All routes, by their numbers.
-    fn all<P: Placement>(graph: &GridGraph<P>) -> [Self; 16] {
-        let mut routes = [Self::default(); 16];
-        let moves = graph.steps().len();
-        for (first, step) in graph.steps().iter().enumerate() {
-            let (v, cost) = (step.vector(), step.cost);
-            let alone = Self {
-                vectors: [packed(v.x, v.y), 0],
-                costs: [cost, Cost::ZERO],
-                first: first as u8,
-                by: first as u8,
-                turns: false,
-                is_vertical: v.x == 0,
-            };
-            routes[Self::number(first, None) as usize] = alone;
-            for turn in 0..if first & 1 == 1 { 2 } else { 0 } {
-                let by = (first + moves - 1 + 2 * turn) % moves;
-                let (last, vectors) = (graph.step(by), alone.vectors);
-                let v = last.vector();
-                routes[Self::number(first, Some(turn)) as usize] = Self {
-                    vectors: [vectors[0], packed(v.x, v.y)],
-                    costs: [cost, last.cost],
-                    by: by as u8,
-                    turns: true,
-                    is_vertical: v.x == 0,
-                    ..alone
-                };
-            }
-        }
-        routes
-    }
-}
-
-/// Two coordinates in one number. Sums and multiples of such numbers are those of sums and multiples of the
-/// vectors, and where x is not negative, its bits are the lower half.
-#[inline]
-const fn packed(x: i32, y: i32) -> i64 {
-    ((y as i64) << 32) + x as i64
 }
 
 impl JumpLists {
@@ -308,21 +162,18 @@ impl JumpLists {
     /// The words from the list of a vertex on, for paths that arrive there by an even move.
     #[inline]
     fn get(&self, id: VertexId, by: usize) -> Option<&[u32]> {
-        let (word, bit) = (id.index() / 64, id.index() % 64);
-        if word >= self.per_move {
+        let place = self.places.get((by >> 1) * self.per_move + id.index() / 64)?;
+        // The vertex and those before it, from the highest bit down.
+        let bits = place.bits() << (!id.index() & 63);
+        if bits >> 63 == 0 {
             return None;
         }
-        let place = self.places.get((by >> 1) * self.per_move + word)?;
-        let bits = place.bits();
-        if bits >> bit & 1 == 0 {
-            return None;
-        }
-        let list = place.first as usize + (bits & ((1 << bit) - 1)).count_ones() as usize;
+        let list = place.first as usize + bits.count_ones() as usize - 1;
         self.words.get(*self.starts.get(list)? as usize..)
     }
 
-    /// Calls `visit` with all successors of a node at which a path arrived by move `by`; false if they are
-    /// not known.
+    /// Calls `visit` with all successors of a node at which a path arrived by move `by`, if they are known
+    /// and the goal is not in sight.
     #[inline]
     pub(super) fn visit<P: Placement>(
         &self,
@@ -330,33 +181,33 @@ impl JumpLists {
         blocks: &BlockFinder,
         (node, by): (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
-    ) -> bool {
+    ) -> LookUp {
         if by & 1 == 1 {
-            return false;
+            return LookUp::Unknown;
         }
-        let Some(words) = self.get(node.id, by) else { return false };
-        let Some(head) = words.first().map(|&word| Head::of(word)) else { return false };
-        let way = ToGoal::new(node.at.to(goal), graph.k());
-        if head.moves >> (way.index & 7) & 1 == 1 {
-            let rank = head.rank(way.index);
+        let Some(words) = self.get(node.id, by) else { return LookUp::Unknown };
+        let Some(head) = words.first().map(|&word| Head::of(word)) else { return LookUp::Unknown };
+        let (index, steps) = ToGoal::first(node.at.to(goal), graph.k());
+        if head.moves >> (index & 7) & 1 == 1 {
+            let rank = head.rank(index);
             let lengths = words.get(1 + rank / 2).map_or(0, |&lengths| lengths >> (16 * (rank & 1)));
-            if way.steps <= lengths & MOST_STEPS
-                && let Some(goal) = blocks.goal_beyond_turn(graph, node, &way)
-            {
-                visit(goal);
-                return true;
+            if steps <= lengths & MOST_STEPS {
+                let to_goal = ToGoal::new(node.at.to(goal), graph.k());
+                if let Some(goal) = blocks.goal_beyond_turn(graph, node, &to_goal) {
+                    return LookUp::Goal(goal);
+                }
             }
         }
-        let mut left = words.get(head.words()..head.length()).unwrap_or_default();
+        let mut left = words.get(head.words as usize..head.length()).unwrap_or_default();
         let from = packed(node.at.x, node.at.y);
         while let Some((&word, rest)) = left.split_first() {
             left = rest;
             let Jump { route, steps, then_steps, holds } = Jump::of(word);
             let route = &self.routes[route as usize];
             let (first, last) = (i64::from(steps), i64::from(then_steps));
-            let at = from + route.vectors[0] * first + route.vectors[1] * last;
-            let at = Vertex::new(at as i32, (at >> 32) as i32);
-            let is_near = near.along(at, route.is_vertical);
+            let packed_at = from + route.vectors[0] * first + route.vectors[1] * last;
+            let at = Vertex::new(packed_at as i32, (packed_at >> 32) as i32);
+            let is_near = near.along((usize::from(route.line), (packed_at >> route.shift) as i32));
             if holds & if is_near { Jump::NEAR_GOAL } else { Jump::ELSEWHERE } == 0 {
                 continue;
             }
@@ -369,7 +220,7 @@ impl JumpLists {
                 left = &left[left.iter().take_while(|word| is_other(word)).count()..];
             }
         }
-        true
+        LookUp::Visited
     }
 
     /// Whether a diagonal jump ends where a path to one of its jump points is known.

@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{GridGraph, Mismatch, Placement, Vertex, VertexId};
+use mediant_grid::{GridGraph, Mismatch, Placement, Vertex};
 use mediant_moves::KError;
 
 use super::{
@@ -18,7 +18,7 @@ use crate::{
     canonical::{Pruning, pattern_at, prunes, rank},
     heuristic::Heuristic,
     parent::JumpParent,
-    successors::{ExpandedNode, KnownPath, Successor, Successors},
+    successors::{ExpandedNode, KnownPath, LookUp, Successor, Successors},
 };
 
 /// Jump point search with any [`JumpFinder`]. Its scratch memory is 20 bytes for each vertex of a
@@ -174,7 +174,9 @@ fn follow_stepwise<P: Placement>(
     scanned
 }
 
-/// All moves from a node, as a set, for k ≤ 3: the start and what is near a closed gap are not pruned.
+/// All moves from a node, as a set, for k ≤ 3, where gaps are closed: the start and what is near a gap are
+/// not pruned.
+#[cold]
 #[inline(never)]
 fn all_moves<P: Placement>(graph: &GridGraph<P>, node: &ExpandedNode, goal: Vertex) -> u8 {
     let mut moves = 0;
@@ -212,13 +214,14 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
         visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
         let mut context = self.context(graph, node.at, goal);
-        // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the goal
-        // may be one.
+        // Asked once for the whole node: a jump never goes on from a gap, so only the node itself and the
+        // goal may be one.
         context.stepwise |= graph.has_closed_gaps() && graph.is_closed_gap(node.at);
         let Some(table) = self.pruning.table().filter(|_| !context.stepwise) else {
             return follow_stepwise(&context, node, visit);
         };
         let moves = match node.by.filter(|&by| !self.pruning.is_exempt(graph, node.at, by, goal)) {
+            None if !graph.has_closed_gaps() => table.legal(pattern_at(graph, node.at)),
             None => all_moves(graph, node, goal),
             Some(by) => table.successors(by, pattern_at(graph, node.at)),
         };
@@ -232,17 +235,16 @@ impl<P: Placement, J: JumpFinder<P>> JumpMoves<P, J> {
         Self::follow(&self.finder, &context, node, moves, visit) + scanned
     }
 
-    /// [`scan`](Self::scan) where few nodes come to it: apart, so that the loop of the search has the
-    /// registers.
+    /// [`scan`](Self::scan) where few nodes come to it: the loop of the search keeps its registers.
     #[inline(never)]
     fn scan_apart(
         &self,
         graph: &GridGraph<P>,
-        (id, at, by): (VertexId, Vertex, Option<usize>),
+        node: ExpandedNode,
         goal: Vertex,
         visit: &mut impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
-        self.scan(graph, &ExpandedNode { id, at, by }, goal, visit)
+        self.scan(graph, &node, goal, visit)
     }
 
     /// The jumps from a node by a set of moves, for k ≤ 3. Returns the number of vertices scanned.
@@ -301,16 +303,27 @@ impl<P: Placement, J: JumpFinder<P>> Successors<P> for JumpMoves<P, J> {
         goal: Vertex,
         mut visit: impl FnMut(Successor) -> KnownPath,
     ) -> u32 {
-        if !J::LOOKS_UP {
-            return self.scan(graph, &node, goal, &mut visit);
+        if J::LOOKS_UP {
+            self.scan_apart(graph, node, goal, &mut visit)
+        } else {
+            self.scan(graph, &node, goal, &mut visit)
         }
-        if let Some(by) = node.by.filter(|_| self.rules.looks_up)
-            && (!graph.has_closed_gaps() || self.is_far_from_gaps(graph, (node.at, by), goal))
-            && self.finder.known_successors((graph, &self.rules.near, goal), (&node, by), &mut visit)
-        {
-            return 0;
+    }
+
+    #[inline]
+    fn look_up(
+        &self,
+        graph: &GridGraph<P>,
+        node: ExpandedNode,
+        goal: Vertex,
+        mut visit: impl FnMut(Successor) -> KnownPath,
+    ) -> LookUp {
+        match node.by.filter(|_| self.rules.looks_up) {
+            Some(by) if !graph.has_closed_gaps() || self.is_far_from_gaps(graph, (node.at, by), goal) => {
+                self.finder.known_successors((graph, &self.rules.near, goal), (&node, by), &mut visit)
+            }
+            _ => LookUp::Unknown,
         }
-        self.scan_apart(graph, (node.id, node.at, node.by), goal, &mut visit)
     }
 
     #[inline]

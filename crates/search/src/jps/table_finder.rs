@@ -9,7 +9,7 @@ use super::{
     finder::{JumpContext, JumpFinder},
     table::JumpTable,
 };
-use crate::successors::{ExpandedNode, KnownPath, Successor};
+use crate::successors::{ExpandedNode, KnownPath, LookUp, Successor};
 
 /// Looks the jumps from jump points up. Where they are not known, it makes them as the
 /// [`BlockFinder`](super::BlockFinder) does.
@@ -63,7 +63,7 @@ impl<P: Placement> JumpFinder<P> for Arc<JumpTable> {
         search: (&GridGraph<P>, &NearGoal, Vertex),
         node: (&ExpandedNode, usize),
         visit: &mut impl FnMut(Successor) -> KnownPath,
-    ) -> bool {
+    ) -> LookUp {
         self.lists().visit(search, self.blocks(), node, visit)
     }
 }

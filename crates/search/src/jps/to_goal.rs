@@ -53,23 +53,31 @@ impl ToGoal {
     /// The moves to a goal in this direction.
     #[inline]
     pub(super) fn new(d: Vector, k: FiniteK) -> Self {
-        let (x, y) = (d.x.unsigned_abs(), d.y.unsigned_abs());
+        let ((index, steps), (x, y)) = (Self::first(d, k), d.abs());
         if k == FiniteK::N4 {
             let vertical = if d.y > 0 { 0 } else { 2 };
-            if x == 0 {
-                return Self { index: vertical, steps: y, then: (vertical, 0) };
-            }
-            return Self { index: if d.x > 0 { 1 } else { 3 }, steps: x, then: (vertical, y) };
+            return Self { index, steps, then: if x == 0 { (index, 0) } else { (vertical, y) } };
+        }
+        if index & 1 == 0 {
+            return Self { index, steps, then: (index, 0) };
         }
         let (vertical, horizontal) = (if d.y > 0 { 0 } else { 4 }, if d.x > 0 { 2 } else { 6 });
-        let (even, diagonal) = if x > y { (horizontal, y) } else { (vertical, x) };
-        let then = (even, x.abs_diff(y));
-        if diagonal == 0 {
-            return Self { index: even, steps: x + y, then: (even, 0) };
+        Self { index, steps, then: (if x > y { horizontal } else { vertical }, x.abs_diff(y)) }
+    }
+
+    /// The first of these moves, and its steps.
+    #[inline]
+    pub(super) fn first(d: Vector, k: FiniteK) -> (usize, u32) {
+        let (x, y) = d.abs();
+        if k == FiniteK::N4 {
+            let (vertical, horizontal) = (if d.y > 0 { 0 } else { 2 }, if d.x > 0 { 1 } else { 3 });
+            return if x == 0 { (vertical, y) } else { (horizontal, x) };
         }
-        // The odd move between them, by the signs, four bits each.
-        let signs = u32::from(d.y > 0) | u32::from(d.x > 0) << 1;
-        Self { index: (0x1375 >> (4 * signs) & 7) as usize, steps: diagonal, then }
+        // The moves by the signs of y and x, four bits each. (At the goal it is any one.)
+        let signs = 3 * d.y.signum() + d.x.signum() + 4;
+        let index = (0x1_0724_6345_u64 >> (4 * signs) & 7) as usize;
+        let diagonal = x.min(y);
+        (index, if diagonal == 0 { x + y } else { diagonal })
     }
 
     /// The number of steps to the goal by an even move, if it is straight ahead.

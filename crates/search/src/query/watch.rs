@@ -127,6 +127,10 @@ impl<O: Observer> Observer for Watch<'_, O> {
         self.observer.scanned(vertices);
     }
 
+    fn counts_swaps(&self) -> bool {
+        self.observer.counts_swaps()
+    }
+
     fn fell_back(&mut self) {
         self.observer.fell_back();
     }

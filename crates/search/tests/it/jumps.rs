@@ -6,10 +6,13 @@ use std::sync::Arc;
 use mediant_grid::{
     Centers, CornerRule, Corners, DiagonalGap, Grid, GridGraph, Placement, Rules, Vector, Vertex,
 };
-use mediant_moves::FiniteK;
-use mediant_oracle::{Rng, describe, noise, on_all_cores, random_free_vertex, seeds, sparse, validate};
+use mediant_moves::{Cost, FiniteK};
+use mediant_oracle::{
+    Rng, caves, describe, noise, on_all_cores, random_free_vertex, rooms, seeds, sparse, validate,
+};
 use mediant_search::{
-    AStar, Answer, BlockJps, Counters, Ends, Euclidean, Hk, Jps, JpsPlus, JumpTable, Path, Planner, Zero,
+    AStar, Answer, BlockJps, Counters, Ends, Euclidean, Hk, Jps, JpsPlus, JumpTable, NodeEvent, Observer,
+    Path, Planner, SearchStatus, Zero,
 };
 
 /// Open ground behind a wall, or with a few cells blocked anywhere; sides of up to 130 cells, so that jumps
@@ -186,4 +189,79 @@ fn a_goal_in_sight_is_found_at_once() {
         }
     }
     assert!(in_sight > 300, "{in_sight}");
+}
+
+/// Pauses after so many expansions, and does not count swaps.
+struct Pause {
+    left: u32,
+}
+
+impl Observer for Pause {
+    fn expanded(&mut self, _: NodeEvent) {
+        self.left -= 1;
+    }
+
+    fn pauses(&mut self, _: Cost) -> bool {
+        self.left == 0
+    }
+
+    fn counts_swaps(&self) -> bool {
+        false
+    }
+}
+
+/// The path of a search in two parts, and whether swaps were counted when it had been under way.
+fn in_parts(planner: &mut impl Planner, query: Ends, expansions: u32) -> (Option<Path>, bool) {
+    let mut counters = Counters::default();
+    let mut status = planner.begin(query, &mut ()).unwrap();
+    if status == SearchStatus::Searching {
+        status = planner.proceed(&mut Pause { left: expansions }).unwrap();
+    }
+    if status == SearchStatus::Searching {
+        status = planner.proceed(&mut counters).unwrap();
+    }
+    let path = (status == SearchStatus::Found).then(|| planner.path_to(query.goal)).flatten();
+    (path, counters.percolations > 0)
+}
+
+/// Planners find the same paths, with as many expansions, whether or not somebody counts swaps, also in
+/// searches with many open nodes, many of which are reached again by a cheaper path.
+#[test]
+fn paths_do_not_depend_on_whether_swaps_are_counted() {
+    let parts = on_all_cores(seeds(12), |seed| {
+        let rng = &mut Rng::new(seed);
+        let grid = Arc::new(match seed % 3 {
+            0 => rooms(rng, 260, 140),
+            1 => caves(rng, 190, 180),
+            _ => noise(rng, 160, 120, 25),
+        });
+        let graph = &GridGraph::<Centers>::new(Arc::clone(&grid), FiniteK::N8, CornerRule::Never).unwrap();
+        let table = Arc::new(JumpTable::new(graph).unwrap());
+        let mut blocks = BlockJps::new(graph, Hk).unwrap();
+        let mut lists = JpsPlus::new(graph, Arc::clone(&table), Hk).unwrap();
+        let mut all = JpsPlus::new(graph, table, Zero).unwrap();
+        let (mut updated, mut switched) = (0, 0);
+        for _ in 0..8 {
+            let mut free = || random_free_vertex(rng, &grid, Centers::KIND).unwrap();
+            let (query, expansions) = (Ends::new(free(), free()), 1 + rng.below(100));
+            let case = || describe(&grid, Rules::Center(CornerRule::Never), query.start, query.goal, seed);
+            macro_rules! check {
+                ($planner:ident) => {
+                    let mut counters = Counters::default();
+                    let counted = $planner.solve_observed(query, &mut counters).unwrap();
+                    assert_eq!($planner.solve(query).unwrap(), counted, "{}", case());
+                    let (path, has_switched) = in_parts(&mut $planner, query, expansions);
+                    assert_eq!(path.as_ref(), counted.path(), "in parts, {}", case());
+                    updated += counters.updated;
+                    switched += u32::from(has_switched);
+                };
+            }
+            check!(blocks);
+            check!(lists);
+            check!(all);
+        }
+        (updated, switched)
+    });
+    let (updated, switched) = parts.iter().fold((0, 0), |sums, part| (sums.0 + part.0, sums.1 + part.1));
+    assert!(updated > 1000 && switched > 50, "{updated}, {switched}");
 }

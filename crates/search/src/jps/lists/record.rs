@@ -8,7 +8,7 @@ use super::{
         finder::{JumpContext, JumpRules, in_order},
         to_goal::ToGoal,
     },
-    Head, Jump, MOST_STEPS, Route,
+    words::{Head, Jump, MOST_STEPS, Route},
 };
 use crate::{
     canonical::{Pruning, pattern_at},
@@ -36,8 +36,8 @@ impl<P: Placement> Recorder<'_, P> {
     fn add(&self, node: &ExpandedNode, by: usize, words: &mut Vec<u32>) -> Option<()> {
         let table = self.pruning.table()?;
         let moves = table.successors(by, pattern_at(self.graph, node.at));
-        let (start, head) = (words.len(), Head { moves, jumps: 0 });
-        words.resize(start + head.words(), 0);
+        let (start, head) = (words.len(), Head::new(moves));
+        words.resize(start + head.length(), 0);
         for mut left in in_order(moves) {
             while left != 0 {
                 let index = left.trailing_zeros() as usize;
@@ -48,7 +48,7 @@ impl<P: Placement> Recorder<'_, P> {
                 words[start + 1 + rank / 2] |= length << (16 * (rank & 1));
             }
         }
-        let jumps = (words.len() - start - head.words()) as u32;
+        let jumps = (words.len() - start - head.length()) as u32;
         words[start] = Head { jumps, ..head }.word().filter(|_| moves != 0)?;
         Some(())
     }

@@ -16,7 +16,7 @@ use super::{
 use crate::{
     Ends, Hk, Planner, Zero,
     canonical::Pruning,
-    successors::{ExpandedNode, KnownPath, Successors},
+    successors::{ExpandedNode, KnownPath, LookUp, Successor, Successors},
 };
 
 /// Jump lists lead where steps lead, with the goal in sight or anywhere, and tables come back from their
@@ -89,10 +89,18 @@ fn successors<P: Placement, J: JumpFinder<P>>(
 ) -> (Vec<(Vertex, Cost)>, u32) {
     planner.successors.begin(planner.graph, goal);
     let mut found = Vec::new();
-    let scanned = planner.successors.for_each(planner.graph, node, goal, |next| {
+    let mut visit = |next: Successor| {
         found.push((next.at, next.cost));
         KnownPath::NONE
-    });
+    };
+    let scanned = match planner.successors.look_up(planner.graph, node, goal, &mut visit) {
+        LookUp::Unknown => planner.successors.for_each(planner.graph, node, goal, visit),
+        LookUp::Visited => 0,
+        LookUp::Goal(goal) => {
+            visit(goal);
+            0
+        }
+    };
     found.sort_unstable();
     (found, scanned)
 }
