@@ -68,7 +68,7 @@ fn an_index_is_built_and_its_file_named() {
         mediant(&["build", "builtin:town", "--engine", "jps-plus", "-o", &index]);
     assert_eq!((stderr.as_str(), status), ("", Some(0)));
     // Where jumps lead from the jump points of 72 × 36 cells.
-    assert_eq!(redact_times(&stdout), "town.idx · jps-plus of town.map · 13,592 bytes · built in TIME\n");
+    assert_eq!(redact_times(&stdout), "town.idx · jps-plus of town.map · 14,032 bytes · built in TIME\n");
 }
 
 #[test]
