@@ -79,7 +79,7 @@ impl KnownPath {
     }
 }
 
-/// What is known of the successors of a node.
+/// The successors of a node, as far as they are known beforehand.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub enum LookUp {

@@ -396,7 +396,7 @@ pub(super) fn is_cut<P: Placement>(
         || known.parent().is_some_and(|parent| last_leg(graph, parent, (at, index)) > n)
 }
 
-/// How many steps of the even move `index` the path from a parent to a vertex ends with.
+/// The number of steps of the even move `index` the path from a parent to a vertex ends with.
 #[inline]
 pub(super) fn last_leg<P: Placement>(
     graph: &GridGraph<P>,

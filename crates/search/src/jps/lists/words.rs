@@ -59,18 +59,18 @@ const BITS: [u8; 256] = {
 pub(super) struct Jump {
     /// The number of its [`Route`].
     pub(super) route: u32,
-    /// How often the first move is repeated.
+    /// The number of times that the first move is repeated.
     pub(super) steps: u32,
-    /// How often the second one is repeated.
+    /// The same of the second one.
     pub(super) then_steps: u32,
-    /// Where it leads there: [`NEAR_GOAL`](Self::NEAR_GOAL), [`ELSEWHERE`](Self::ELSEWHERE), or both.
+    /// The places where it leads there: [`NEAR_GOAL`](Self::NEAR_GOAL), [`ELSEWHERE`](Self::ELSEWHERE), or both.
     pub(super) holds: u32,
 }
 
 impl Jump {
-    /// Where dead ends count as jump points.
+    /// Near the goal, where dead ends count as jump points.
     pub(super) const NEAR_GOAL: u32 = 1;
-    /// Where they do not.
+    /// Elsewhere: there they do not.
     pub(super) const ELSEWHERE: u32 = 2;
 
     pub(super) fn word(self) -> Option<u32> {
