@@ -63,7 +63,7 @@ pub(super) struct Jump {
     pub(super) steps: u32,
     /// The same of the second one.
     pub(super) then_steps: u32,
-    /// The places where it leads there: [`NEAR_GOAL`](Self::NEAR_GOAL), [`ELSEWHERE`](Self::ELSEWHERE), or both.
+    /// Whether it leads there [near the goal](Self::NEAR_GOAL), [elsewhere](Self::ELSEWHERE), or both.
     pub(super) holds: u32,
 }
 
