@@ -169,14 +169,12 @@ impl Labels<'_> {
         }
     }
 
-    /// Whether a path may go on from a vertex of a line, or past it, and be a shortest one.
+    /// Whether a path may go on from a vertex of a line, or past it, and be a shortest one. (The known path may
+    /// end at a closed gap and not go on. But beside one, where a root sees it, the next row is blocked.)
     #[inline]
     fn may_go_on(&self, root: &Root, line: Line, x: i32) -> bool {
         let Some(&known) = self.lengths.get(line.number(x)) else { return false };
-        let length = line.length(root, x);
-        // The known path may end at a closed gap, but not go on.
-        length <= self.limit + MARGIN
-            && (length <= known + MARGIN || self.space.is_closed_gap(Vertex::new(x, line.y)))
+        line.length(root, x) <= known.min(self.limit) + MARGIN
     }
 
     /// Labels vertices of a line. Between corners nothing is decided but which path is shorter, for several
