@@ -169,8 +169,10 @@ impl Labels<'_> {
         }
     }
 
-    /// Whether a path may go on from a vertex of a line, or past it, and be a shortest one. (The known path may
-    /// end at a closed gap and not go on. But beside one, where a root sees it, the next row is blocked.)
+    /// Whether a path may go on from a vertex of a line, or past it, and be a shortest one.
+    ///
+    /// The known path may end at a closed gap, and not go on. But beside a gap, where a root sees it, the row
+    /// ahead is blocked.
     #[inline]
     fn may_go_on(&self, root: &Root, line: Line, x: i32) -> bool {
         let Some(&known) = self.lengths.get(line.number(x)) else { return false };
