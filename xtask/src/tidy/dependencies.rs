@@ -22,7 +22,7 @@ const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'s
 }
 
 /// The layers, lowest first, in four groups.
-const LAYERS: [Layer; 17] = [
+const LAYERS: [Layer; 19] = [
     // The mathematics and the map.
     Layer {
         foreign: false,
@@ -56,6 +56,12 @@ const LAYERS: [Layer; 17] = [
         &[LIBRARY, FORMATS],
         "the package is thin: names, conversions and words on top of the library",
     ),
+    layer(
+        "mediant-c",
+        &[LIBRARY],
+        "the library of C is thin: handles, arrays and words on top of the library",
+    ),
+    layer("mediant-gppc", &[LIBRARY], "an entry of the competition converts what its harness hands over"),
     // Tests and measurements.
     layer(ORACLE, &[MOVES, GRID], "a reference that shares code with what it checks shares its errors"),
     layer(REPORT, &[MOVES, GRID], "results can be looked at without the engines that made them"),

@@ -1,0 +1,22 @@
+//! The header is that of the functions.
+
+use std::{env, fs, path::Path};
+
+#[test]
+fn header_is_that_of_the_functions() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let config = cbindgen::Config::from_file(folder.join("cbindgen.toml")).unwrap();
+    let built = cbindgen::Builder::new().with_src(folder.join("src/lib.rs")).with_config(config).generate();
+    let mut header = Vec::new();
+    built.unwrap().write(&mut header);
+    let header = String::from_utf8(header).unwrap();
+    let path = folder.join("include/mediant.h");
+    if env::var_os("MEDIANT_WRITE").is_some() {
+        fs::create_dir_all(folder.join("include")).unwrap();
+        fs::write(&path, &header).unwrap();
+    }
+    assert!(
+        fs::read_to_string(path).unwrap() == header,
+        "write it anew: MEDIANT_WRITE=1 cargo test -p mediant-c"
+    );
+}
