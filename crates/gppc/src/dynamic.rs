@@ -80,7 +80,7 @@ impl Entry {
         let is_blocked = |x: u32, y: u32| unsafe { map.is_blocked(y as usize * width as usize + x as usize) };
         let space = Map::from_fn(width, height, is_blocked)?.space(Motion::default())?;
 
-        let index = space.prepare(Engine::JpsBlock)?;
+        let index = space.prepare_for_one_path(Engine::JpsBlock)?;
         let planner = index.try_planner()?;
         Ok(Self { map, index, planner, points: Vec::new() })
     }

@@ -83,6 +83,11 @@ pub(super) trait EngineFinder<P: Placement>: JumpFinder<P> + Clone + Send + Sync
     /// The memory that it uses, in bytes.
     fn memory_bytes(&self) -> usize;
 
+    /// Whether it left out what does not pay for a single path.
+    fn is_for_one_path(&self) -> bool {
+        false
+    }
+
     /// The finder on the grid graph after a change of the map; `None` if it must be made anew.
     fn repaired(
         &self,
@@ -117,7 +122,11 @@ impl<P: Shared> JumpIndex<P, BlockFinder> {
     ) -> Result<Self, Error> {
         let pruning = shared_rules::pruning(graph, source.interrupt)?;
         memory_check::check("the index", BlockFinder::bytes(graph) as u64)?;
-        let blocks = BlockFinder::interruptible(graph, &pruning, source.interrupt)?;
+        let blocks = if source.for_one_path {
+            BlockFinder::for_few_searches(graph, &pruning, source.interrupt)?
+        } else {
+            BlockFinder::interruptible(graph, &pruning, source.interrupt)?
+        };
         Self::new(graph, pruning, blocks, own)
     }
 }
@@ -160,6 +169,10 @@ impl<P: PlacementOfSpace, J: EngineFinder<P> + 'static> EngineIndex for JumpInde
 
     fn memory_bytes(&self) -> usize {
         self.pruning.memory_bytes() + self.finder.memory_bytes()
+    }
+
+    fn is_for_one_path(&self) -> bool {
+        self.finder.is_for_one_path()
     }
 
     fn to_bytes(&self, interrupt: &Interrupt) -> Result<Option<Vec<u8>>, Interrupted> {
@@ -210,6 +223,10 @@ impl<P: Placement> EngineFinder<P> for BlockFinder {
 
     fn memory_bytes(&self) -> usize {
         self.memory_bytes()
+    }
+
+    fn is_for_one_path(&self) -> bool {
+        self.is_for_few_searches()
     }
 
     /// The light build leaves this out: its code is as large as that of a search.

@@ -159,7 +159,8 @@ fn a_single_path_prepares_nothing() {
             assert!(without.for_k(other).is_ok_and(|index| index.memory_bytes() == 0));
         }
     }
-    // All other engines prepare what they always do.
+    // All other engines prepare what they always do. (The dead ends of block-based JPS are bits that it has
+    // in any case.)
     for rules in Rules::ALL {
         for setup in Setup::all(Motion::new(K::N8, rules)).filter(|setup| setup.engine.kind() != Engine::Anya)
         {

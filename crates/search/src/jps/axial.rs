@@ -221,6 +221,16 @@ pub(super) struct LineWord {
 }
 
 impl LineWord {
+    /// Of its bits those of vertices of a map.
+    pub(super) fn within(self, map: Zone) -> u64 {
+        let ((is_vertical, is_forward), (u, _)) = (direction(self.quarter), self.place);
+        let last = if is_vertical { map.last.y } else { map.last.x };
+        // As many lie before the first vertex of the line, and as many from the first to the last one.
+        let (before, up_to) = if is_forward { (-u, last - u + 1) } else { (u - last, u + 1) };
+        let below = |count: i32| !u64::MAX.checked_shl(count.max(0) as u32).unwrap_or(0);
+        below(up_to) & !below(before)
+    }
+
     /// Calls `visit` with the vertices of some of its bits, and with the bits.
     #[inline]
     pub(super) fn for_each(self, bits: u64, mut visit: impl FnMut(Vertex, u64)) {

@@ -110,13 +110,12 @@ impl DiagonalStops {
     /// The place of the bit of a vertex of the map for jumps by the odd move `index`.
     #[inline]
     pub(crate) fn place(&self, at: Vertex, index: usize) -> u64 {
-        let plane = &self.planes[index >> 1 & 3];
-        let line = plane.across.x * at.x + plane.across.y * at.y + plane.shift;
-        // A division by a multiplication, exact below 2²⁰ lines.
-        let line = u64::from(line as u32);
-        let line = line - self.lines * ((line * self.reciprocal) >> 40);
-        let place = plane.along.x * at.x + plane.along.y * at.y + plane.start;
-        plane.first + line * plane.length + u64::from(place as u32)
+        self.plane(index).place(at)
+    }
+
+    #[inline]
+    const fn plane(&self, index: usize) -> Lines {
+        Lines { plane: self.planes[index >> 1 & 3], lines: self.lines, reciprocal: self.reciprocal }
     }
 
     /// The scan of a diagonal jump from a vertex of the map by the odd move `index`.
@@ -169,16 +168,23 @@ pub(super) struct DiagonalEdit<'s> {
 }
 
 impl DiagonalEdit<'_> {
-    /// Changes what is said of a vertex of the map and an odd move: whether it stops the jump, and whether
-    /// the first and the second axial jump come to a jump point from there.
-    pub(super) fn change(&mut self, at: Vertex, index: usize, next: impl FnOnce([bool; 3]) -> [bool; 3]) {
-        let place = self.before.place(at, index);
+    /// The places of the bits of an odd move.
+    pub(super) const fn plane(&self, index: usize) -> Lines {
+        self.before.plane(index)
+    }
+
+    /// Changes what is said of the vertex at a place: whether it stops the jump, and whether the first and
+    /// the second axial jump come to a jump point from there.
+    #[inline]
+    pub(super) fn change(&mut self, place: u64, next: impl FnOnce([bool; 3]) -> [bool; 3]) {
         let (word, bit) = ((place >> 6) as usize, place & 63);
         let known = self.words.words()[word].map(|word| word >> bit & 1 == 1);
         let next = next(known);
         if next != known {
-            let changed = self.words.word_mut(word).iter_mut().zip(known).zip(next);
-            changed.for_each(|((word, was), is)| *word ^= u64::from(was != is) << bit);
+            let changed = self.words.word_mut(word);
+            for i in 0..3 {
+                changed[i] ^= u64::from(known[i] != next[i]) << bit;
+            }
         }
     }
 
@@ -186,6 +192,28 @@ impl DiagonalEdit<'_> {
     pub(super) fn finish(self) -> DiagonalStops {
         let &DiagonalStops { planes, lines, reciprocal, .. } = self.before;
         DiagonalStops { planes, words: self.words.finish(), lines, reciprocal }
+    }
+}
+
+/// The lines of the plane of an odd move.
+#[derive(Clone, Copy)]
+pub(super) struct Lines {
+    plane: Plane,
+    lines: u64,
+    reciprocal: u64,
+}
+
+impl Lines {
+    /// The place of the bit of a vertex of the map.
+    #[inline]
+    pub(super) const fn place(self, at: Vertex) -> u64 {
+        let Self { plane, lines, reciprocal } = self;
+        let line = plane.across.x * at.x + plane.across.y * at.y + plane.shift;
+        // A division by a multiplication, exact below 2²⁰ lines.
+        let line = line as u32 as u64;
+        let line = line - lines * ((line * reciprocal) >> 40);
+        let place = plane.along.x * at.x + plane.along.y * at.y + plane.start;
+        plane.first + line * plane.length + place as u32 as u64
     }
 }
 

@@ -48,6 +48,15 @@ impl JumpPlanes {
         Self::with_dead_ends(graph, pruning, axial, reach, interrupt)
     }
 
+    /// Without dead ends.
+    pub(super) fn without_dead_ends<P: Placement>(
+        graph: &GridGraph<P>,
+        pruning: &Pruning<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        Self::with_dead_ends(graph, pruning, AxialStops::new(graph, interrupt)?, 0, interrupt)
+    }
+
     /// Whether dead ends are looked for, among these jump points.
     pub(super) fn should_have_dead_ends<P: Placement>(graph: &GridGraph<P>, axial: &AxialStops) -> bool {
         let vertices = graph.vertex_count() as u64;

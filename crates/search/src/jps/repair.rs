@@ -266,52 +266,57 @@ impl<'r, P: Placement> Repair<'r, P> {
         // The jump is the first one beside the next odd move, and the second one beside the last.
         let [next, previous] = [even + 1, even + last].map(|odd| odd & last);
         let beside = [(0, next, even + 2), (1, previous, even + last - 1)];
-        let beside = beside.map(|(i, index, other)| (i, index, self.quarter(other & last)));
-        line.for_each(bits, |at, bit| {
-            if !self.map.holds(at) {
-                return;
-            }
-            let answer = answers.of(bit);
-            for (i, index, other) in beside {
-                edit.change(at, index, |known| {
+        let bits = bits & line.within(self.map);
+        let may_force = self.table.diagonals_may_force();
+        for (i, index, other) in beside {
+            let (plane, other) = (edit.plane(index), self.quarter(other & last));
+            line.for_each(bits, |at, bit| {
+                let answer = answers.of(bit);
+                edit.change(plane.place(at), |known| {
                     let [stops, first, second] = known;
-                    let mut any = [first, second];
                     // A vertex that the diagonal jump cannot enter stops it, and no jump leads on from there.
-                    let is_known = !stops || first || second;
-                    let here = if is_known && !self.table.diagonals_may_force() {
-                        Arrival { enters: true, forced: false }
+                    let is_known = !may_force && (!stops | first | second);
+                    let is_forced = if is_known {
+                        false
                     } else {
-                        self.here(self.graph.grid(), at).by(index)
+                        let here = self.here(self.graph.grid(), at).by(index);
+                        if !here.enters {
+                            return known;
+                        }
+                        here.forced
                     };
-                    if !here.enters {
-                        return known;
-                    }
-                    any[i] = answer.any;
+                    let leads_beside = if i == 0 { second } else { first };
                     // If that jump passed dead ends to a jump point, it was said to stop this one.
                     let passes = || self.reach == 0 || stops && axial.scan(at, other, false).found;
-                    [here.forced || answer.live || any[1 - i] && passes(), any[0], any[1]]
+                    let stops = is_forced || answer.live || leads_beside && passes();
+                    if i == 0 { [stops, answer.any, second] } else { [stops, first, answer.any] }
                 });
-            }
-        });
+            });
+        }
     }
 
     /// Sets those bits of a zone in the diagonal planes that the pattern of cells decides.
     fn set_zone(&self, axial: &AxialStops, (before, zone): (&Grid, Zone), edit: &mut DiagonalEdit<'_>) {
         for at in zone.vertices() {
             let [was, is] = [before, self.graph.grid()].map(|grid| self.here(grid, at));
+            if was.pattern == is.pattern {
+                continue;
+            }
             for index in (1..self.graph.steps().len()).step_by(2) {
                 let here = is.by(index);
                 if here == was.by(index) {
                     continue;
                 }
                 let beside = [index - 1, (index + 1) % self.graph.steps().len()];
-                edit.change(at, index, |_| {
+                edit.change(edit.plane(index).place(at), |_| {
                     if !here.enters {
                         return [true, false, false];
                     }
-                    let answers = beside.map(|even| axial.answer(at, self.quarter(even)));
-                    let live = answers.iter().any(|answer| answer.live);
-                    [here.forced || live, answers[0].any, answers[1].any]
+                    let scan =
+                        |even, with_dead_ends| axial.scan(at, self.quarter(even), with_dead_ends).found;
+                    let any = beside.map(|even| scan(even, true));
+                    let is_live = |i: usize| any[i] && (self.reach == 0 || scan(beside[i], false));
+                    [here.forced || is_live(0) || is_live(1), any[0], any[1]]
                 });
             }
         }

@@ -29,12 +29,6 @@ impl Answers {
 }
 
 impl AxialStops {
-    /// The answer of the jump from a vertex of the map.
-    pub(in super::super) fn answer(&self, from: Vertex, quarter: usize) -> Answer {
-        let any = self.scan(from, quarter, true).found;
-        Answer { any, live: any && self.scan(from, quarter, false).found }
-    }
-
     /// The words of the planes that hold vertices as jumps in a direction find them.
     pub(in super::super) fn word_of(&self, at: Vertex, quarter: usize) -> usize {
         (self.planes[quarter & 3].place(at) >> 6) as usize

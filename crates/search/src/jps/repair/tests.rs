@@ -241,12 +241,18 @@ impl Test for Costs {
         let rng = &mut Rng::new(seed);
         let mut map = Arc::new(grid(seed));
         let first = graph::<P>(&map, rule, k);
+        let never = &Interrupt::NEVER;
         let mut finder = BlockFinder::new(&first, &Pruning::new(&first)).unwrap();
+        let mut for_few = BlockFinder::for_few_searches(&first, &Pruning::new(&first), never).unwrap();
         for _ in 0..20 {
             let change = edit(rng, &map);
             let graph = &graph::<P>(change.after(), rule, k);
             let pruning = Arc::new(Pruning::new(graph));
-            finder = finder.repaired(graph, &pruning, &change, &Interrupt::NEVER).unwrap();
+            finder = finder.repaired(graph, &pruning, &change, never).unwrap();
+            // Without dead ends it is a new one in every bit.
+            for_few = for_few.repaired(graph, &pruning, &change, never).unwrap();
+            let anew = BlockFinder::for_few_searches(graph, &pruning, never);
+            assert!(for_few.is_for_few_searches() && Ok(&for_few) == anew.as_ref(), "k = {k}, seed {seed}");
             self.stuck_to_reach += u64::from(finder != BlockFinder::new(graph, &pruning).unwrap());
             let mut jps = BlockJps::with_finder(graph, Arc::clone(&pruning), finder.clone(), Hk).unwrap();
             let mut astar = AStar::new(graph, Hk);
