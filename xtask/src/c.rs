@@ -35,6 +35,9 @@ pub struct Options {
     /// The folder of libraries in it, such as lib/x86_64-linux-gnu
     #[arg(long, value_name = "FOLDER", default_value = "lib")]
     pub libdir: PathBuf,
+    /// Install what `cargo build --release -p mediant-c` left in this folder, instead of building it
+    #[arg(long, value_name = "FOLDER")]
+    pub built: Option<PathBuf>,
 }
 
 /// Builds and installs.
@@ -49,9 +52,10 @@ pub fn run(options: &Options) -> Result<(), Error> {
             mend: "name one as lib64".to_owned(),
         });
     }
-    let arguments = ["build", "--release", "--package", "mediant-c"];
-    step(project::cargo().args(arguments), &format!("cargo {}", arguments.join(" ")))?;
-    let built = built()?;
+    let built = match &options.built {
+        Some(folder) => folder.clone(),
+        None => build()?,
+    };
     let version = version()?;
     let names = Names::here(&version);
     let prefix = below(env::var_os("DESTDIR"), &options.prefix);
@@ -81,12 +85,14 @@ fn below(folder: Option<OsString>, prefix: &Path) -> PathBuf {
     }
 }
 
-/// The folder in which cargo puts what it builds for release.
-fn built() -> Result<PathBuf, Error> {
+/// Builds both libraries, and returns their folder.
+fn build() -> Result<PathBuf, Error> {
     #[derive(Deserialize)]
     struct Metadata {
         target_directory: PathBuf,
     }
+    let arguments = ["build", "--release", "--package", "mediant-c"];
+    step(project::cargo().args(arguments), &format!("cargo {}", arguments.join(" ")))?;
     let arguments = ["metadata", "--no-deps", "--format-version", "1"];
     let metadata = serde_json::from_str::<Metadata>(&run_cargo(&arguments)?);
     metadata
@@ -119,7 +125,8 @@ impl Installed<'_> {
             copy(&built.join(implib), &folder.join(implib))?;
             return copy(&built.join(&names.shared), &self.prefix.join("bin").join(&names.shared));
         }
-        let script = built.join("mediant.map");
+        let scratch = tempfile::tempdir().map_err(Error::at(&env::temp_dir()))?;
+        let script = scratch.path().join("mediant.map");
         fs::write(&script, names.script()).map_err(Error::at(&script))?;
         let shared = folder.join(&names.shared);
         let arguments = names.link(&script, &folder.join(names.static_));
@@ -226,7 +233,7 @@ mod tests {
 
     #[test]
     fn packagers_folder_comes_first() {
-        assert_eq!(below(Some("/tmp/made".into()), Path::new("/usr")), Path::new("/tmp/made/usr"));
+        assert_eq!(below(Some("made".into()), Path::new("/usr")), Path::new("made/usr"));
         assert_eq!(below(Some("".into()), Path::new("/usr")), Path::new("/usr"));
         assert_eq!(below(None, Path::new("here")), Path::new("here"));
     }

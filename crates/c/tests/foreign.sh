@@ -5,8 +5,9 @@
 set -eu
 [ $# = 1 ] || { echo "usage: $0 FOLDER" >&2; exit 2; }
 library=$(cd "$1" && pwd)
-examples=$(cd "$(dirname "$0")/../examples" && pwd)
-include=$(cd "$examples/../include" && pwd)
+tests=$(cd "$(dirname "$0")" && pwd)
+examples=$tests/../examples
+include=$tests/../include
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export LD_LIBRARY_PATH="$library${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
@@ -27,5 +28,7 @@ if has mcs 'C#' && has mono 'C#'; then
   mono "$work/path.exe" >"$work/said"
   cmp "$examples/path.txt" "$work/said"
   echo "C#: as in C"
+  mcs -nologo -warnaserror "-out:$work/unity.exe" "$examples/unity/MediantGrid.cs" "$tests/unity.cs"
+  mono "$work/unity.exe"
 fi
 echo "foreign.sh: all is as it should be"

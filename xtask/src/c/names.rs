@@ -24,7 +24,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Those of this machine, for a version of the library.
+    /// The names on this machine, of a version of the library.
     pub(super) fn here(version: &str) -> Self {
         let interface = interface(version);
         if cfg!(target_os = "windows") {
@@ -76,7 +76,7 @@ impl Names {
         }
     }
 
-    /// What the compiler is told, to make the shared library of the static one: by GCC or clang.
+    /// Arguments of GCC or clang, which make the shared library of the static one.
     pub(super) fn link(&self, script: &Path, static_: &Path) -> Vec<String> {
         let (script, static_) = (script.display(), static_.display());
         let own = if cfg!(target_os = "macos") {
