@@ -41,8 +41,10 @@ by_pkg_config() {
   c++ -std=c++17 $(pkg-config --cflags mediant) "$examples/path.cpp" $(pkg-config --libs mediant) -o "$work/path"
   says env "LD_LIBRARY_PATH=$1/lib" "$work/path"
   # The library alone static, then all of the program.
-  cc $(pkg-config --cflags mediant) "$examples/path.c" "$(pkg-config --variable=libdir mediant)/libmediant.a" \
-    -lm -o "$work/path"
+  static="$(pkg-config --variable=libdir mediant)/libmediant.a"
+  cc $(pkg-config --cflags mediant) "$examples/path.c" "$static" -lm -o "$work/path"
+  says "$work/path"
+  c++ -std=c++17 $(pkg-config --cflags mediant) "$examples/path.cpp" "$static" -lm -o "$work/path"
   says "$work/path"
   # The linker warns of functions that look up names of the network and of users: nothing here calls them.
   cc -static $(pkg-config --cflags mediant) "$examples/path.c" $(pkg-config --static --libs mediant) \
@@ -57,8 +59,10 @@ by_cmake() {
     >"$work/log" 2>&1 || { cat "$work/log" >&2; fails "the example by CMake"; }
   says "$work/build/path"
   says "$work/build/path_cpp"
-  says "$work/build/path_static"
-  ! readelf -d "$work/build/path_static" | grep -q libmediant || fails "path_static is not static"
+  for program in path_static path_cpp_static; do
+    says "$work/build/$program"
+    ! readelf -d "$work/build/$program" | grep -q libmediant || fails "$program is not static"
+  done
   # A program that asks for another interface gets none.
   mkdir -p "$work/other"
   printf '%s\n' 'cmake_minimum_required(VERSION 3.16)' 'project(other C)' 'find_package(Mediant 0.0 REQUIRED)' \
