@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    ci, describe, download, package,
+    c, ci, describe, download, package,
     program::{COMPARE, REPRODUCE, VERIFY},
     tidy, web,
 };
@@ -38,6 +38,8 @@ enum Task {
     Package,
     /// Build the npm package and the page that shows it: target/web/package and target/web/page
     Web(web::Options),
+    /// Install the library for C: libmediant, mediant.h and mediant.hpp, for pkg-config and CMake
+    C(c::Options),
 }
 
 /// Arguments that another program reads, `--help` among them.
@@ -60,6 +62,7 @@ fn main() -> ExitCode {
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),
         Task::Web(options) => web::run(options).map(done),
+        Task::C(options) => c::run(&options).map(done),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

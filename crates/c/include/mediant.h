@@ -4,8 +4,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// The number of the interface that this library has. A program that was compiled against another one must
-// not call anything else: compare with `MEDIANT_INTERFACE`.
+// The first number of the version that this header is of.
+#define MEDIANT_VERSION_MAJOR 0
+
+// The second number of the version that this header is of.
+#define MEDIANT_VERSION_MINOR 1
+
+// The third number of the version that this header is of.
+#define MEDIANT_VERSION_PATCH 0
+
+// The number of the interface that this header describes. It is another one as soon as something of it is
+// changed or goes; what is added leaves it.
 #define MEDIANT_INTERFACE 1
 
 // The outcome of a call. The numbers stay from version to version; new ones may come.
@@ -311,7 +320,8 @@ extern "C" {
 // The version of the library, as `0.1.0`. It stays for ever.
 const char *mediant_version(void);
 
-// The number of the interface: see `MEDIANT_INTERFACE`.
+// The number of the interface that the library has. Where it is not `MEDIANT_INTERFACE`, the program was
+// compiled against another one, and must not call anything but this and `mediant_version`.
 uint32_t mediant_interface(void);
 
 // The number of objects that were made and not freed, of all kinds: for tests that nothing is forgotten.

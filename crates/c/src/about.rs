@@ -21,11 +21,21 @@ pub extern "C" fn mediant_version() -> *const c_char {
     VERSION.as_ptr().cast()
 }
 
-/// The number of the interface that this library has. A program that was compiled against another one must
-/// not call anything else: compare with `MEDIANT_INTERFACE`.
+/// The first number of the version that this header is of.
+pub const VERSION_MAJOR: u32 = 0;
+
+/// The second number of the version that this header is of.
+pub const VERSION_MINOR: u32 = 1;
+
+/// The third number of the version that this header is of.
+pub const VERSION_PATCH: u32 = 0;
+
+/// The number of the interface that this header describes. It is another one as soon as something of it is
+/// changed or goes; what is added leaves it.
 pub const INTERFACE: u32 = 1;
 
-/// The number of the interface: see `MEDIANT_INTERFACE`.
+/// The number of the interface that the library has. Where it is not `MEDIANT_INTERFACE`, the program was
+/// compiled against another one, and must not call anything but this and `mediant_version`.
 #[unsafe(no_mangle)]
 pub extern "C" fn mediant_interface() -> u32 {
     INTERFACE

@@ -2,6 +2,14 @@
 
 use std::{env, fs, path::Path};
 
+use crate::about::{VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH};
+
+#[test]
+fn header_is_of_the_version() {
+    let version = format!("{VERSION_MAJOR}.{VERSION_MINOR}.{VERSION_PATCH}");
+    assert_eq!(version, env!("CARGO_PKG_VERSION"), "change VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH");
+}
+
 #[test]
 fn header_is_that_of_the_functions() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));

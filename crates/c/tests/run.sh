@@ -42,7 +42,17 @@ tests() {
   "$2" $cpp "$examples/path.cpp" "-I$here/../include" $link -o "$work/pathcpp"
   "$work/path" >"$work/of_c"
   "$work/pathcpp" >"$work/of_cpp"
-  cmp "$work/of_c" "$work/of_cpp"
+  cmp "$examples/path.txt" "$work/of_c"
+  cmp "$examples/path.txt" "$work/of_cpp"
+  "$1" $c "$here/fault.c" $link -o "$work/fault"
+  fault
+  "$2" $cpp "$here/fault.cpp" $link -o "$work/fault"
+  fault
+}
+
+# Rust tells each fault on stderr, too.
+fault() {
+  RUST_BACKTRACE=0 "$work/fault" 2>"$work/told" || { tail -n 5 "$work/told" >&2; exit 1; }
 }
 
 # The tests with sanitizers, by a compiler of C and one of C++ that have them.
@@ -67,6 +77,7 @@ sanitized() {
 }
 
 sh "$here/covered.sh"
+sh "$here/exports.sh" "$library/libmediant.so"
 echo "gcc"
 has gcc "the tests by gcc are left out" && has g++ "the tests by gcc are left out" && tests gcc g++
 echo "clang"
@@ -77,6 +88,8 @@ if has clang "gcc has the sanitizers"; then sanitized clang clang++; else saniti
 echo "the static library"
 cc $c $all $static -o "$work/all"
 "$work/all" "$(empty)"
+cc $c "$here/fault.c" $static -o "$work/fault"
+fault
 echo "valgrind"
 if has valgrind "leaks are left to mediant_objects"; then
   valgrind -q --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
