@@ -292,11 +292,12 @@ void test_watchers() {
   auto index = mediant::Index::prepare(space, "engine=subgoal", counts);
   IS(told > 0);
   mediant::watcher stops{[] { return true; }, nullptr};
-  THROWS(mediant::Index::prepare(space, "engine=subgoal", stops), MEDIANT_CODE_STOPPED);
+  THROWS(mediant::Index::prepare(space, "engine=subgoal", stops), MEDIANT_CODE_CANCELLED);
 
   auto search = mediant::Index::prepare(space, "engine=dijkstra");
   mediant::Planner planner(search);
-  IS(planner.find({0, 0}, {99, 99}, {}, stops).status == MEDIANT_STATUS_STOPPED);
+  auto stopped = planner.find({0, 0}, {99, 99}, {}, stops);
+  IS(stopped.status == MEDIANT_STATUS_STOPPED && stopped.stopped_by == MEDIANT_LIMIT_CANCELLED);
   std::size_t objects = mediant::objects();
   throws_own([&](const mediant::watcher &watch) { mediant::Index::prepare(space, "engine=subgoal", watch); });
   throws_own([&](const mediant::watcher &watch) { planner.find({0, 0}, {99, 99}, {}, watch); });
