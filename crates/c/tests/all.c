@@ -336,6 +336,7 @@ int main(int arguments, char **argument) {
   test_search();
   test_costs();
   test_points();
+  test_points_anywhere();
   test_goals();
   test_batch();
   test_watcher();

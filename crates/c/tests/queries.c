@@ -98,6 +98,9 @@ void test_exceptions(void) {
   IS(count == 2 && same(points[0], wall));
   OK(mediant_planner_searched_by(planner, &engine));
   IS(strlen(engine) > 0);
+  // No limit stops it before it is seen that it has no end.
+  FAILS(mediant_planner_find_except(planner, NULL, 0, &beside, 1, &opened, "timeout=0", NULL, &answer),
+        MEDIANT_CODE_NO_END, "start");
   drop(made);
 }
 
@@ -219,12 +222,120 @@ void test_points(void) {
   FAILS(mediant_planner_path(made.planner, at(0, 0), at(0, -INFINITY), points, COUNT(points), &count, &length),
         MEDIANT_CODE_GOAL_OUTSIDE, "goal");
   drop(made);
+}
 
-  // Between centers.
-  made = make(RING, "k=any placement=center", NULL);
-  OK(mediant_planner_path(made.planner, at(0, 0), at(0, 4), points, COUNT(points), &count, &length));
-  IS(count == 2 && length == 4);
+// Ends anywhere at any angle, by an engine: whatever takes a point takes them. `by` is where the corner of the
+// map is, in the coordinates of the placement.
+static void ends_anywhere(const char *motion, const char *engine, double by) {
+  struct made made = make(RING, motion, engine);
+  mediant_planner planner = made.planner;
+  mediant_point start = at(by + 0.5, by + 0.25), goal = at(by + 6, by + 4), corner = at(by + 5, by + 1);
+  mediant_point beside = at(by + 0.5, by + 3.25), enclosed = at(by + 2.5, by + 2.5), points[8];
+  double length = 0, expected = hypot(4.5, 0.75) + sqrt(10), table[3];
+  size_t count = 0, nearest = 9;
+  OK(mediant_planner_path(planner, start, goal, points, COUNT(points), &count, &length));
+  IS(count == 3 && same(points[0], start) && same(points[1], corner) && same(points[2], goal));
+  NEAR(length, expected);
+  OK(mediant_space_check(made.space, points, 3));
+  OK(mediant_planner_distance(planner, goal, start, &length));
+  NEAR(length, expected);
+  OK(mediant_planner_distance(planner, start, enclosed, &length));
+  IS(isinf(length));
+
+  mediant_answer answer;
+  mediant_point goals[] = {goal, beside, enclosed};
+  OK(mediant_planner_find(planner, &start, 1, goals, 3, NULL, NULL, &answer));
+  NEAR(answer.distance, 3);
+  // An opening of the ring.
+  mediant_cell door = {1, 2};
+  mediant_exceptions opened = {NULL, 0, &door, 1, 0};
+  OK(mediant_planner_find_except(planner, &beside, 1, &enclosed, 1, &opened, NULL, NULL, &answer));
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.distance < 2.5);
+  int32_t done = 0;
+  OK(mediant_planner_begin(planner, &start, 1, &goal, 1, NULL, NULL));
+  OK(mediant_planner_step(planner, UINT64_MAX, &done, &answer));
+  IS(done == 1);
+  NEAR(answer.distance, expected);
+
+  mediant_goals prepared;
+  OK(mediant_goals_new(made.index, goals, 3, &prepared));
+  OK(mediant_planner_distances(planner, start, prepared, table, 3, &count));
+  IS(count == 3 && isinf(table[2]));
+  NEAR(table[0], expected);
+  NEAR(table[1], 3);
+  OK(mediant_planner_nearest(planner, start, prepared, &nearest, &length));
+  IS(nearest == 1);
+  OK(mediant_goals_free(prepared));
+  OK(mediant_index_table(made.index, &start, 1, goals, 3, NULL, table));
+  NEAR(table[0], expected);
+  IS(isinf(table[2]));
+  mediant_ends ends = {start, goal};
+  mediant_batch batch;
+  mediant_paths paths;
+  OK(mediant_index_paths(made.index, &ends, 1, 1, NULL, &batch));
+  OK(mediant_batch_paths(batch, &paths));
+  NEAR(paths.lengths[0], expected);
+  IS(paths.firsts[1] == 3 && same(paths.points[1], corner));
+  OK(mediant_batch_free(batch));
   drop(made);
+}
+
+// The same without an engine: questions of the space, and fields.
+static void points_of_space(const char *motion, double by) {
+  struct made made = make(RING, motion, NULL);
+  mediant_point start = at(by + 0.5, by + 0.25), goal = at(by + 6, by + 4), corner = at(by + 5, by + 1);
+  mediant_point beside = at(by + 0.5, by + 3.25), points[4], next;
+  int32_t is = -1;
+  OK(mediant_space_is_free(made.space, start, &is));
+  IS(is == 1);
+  OK(mediant_space_connected(made.space, start, at(by + 2.5, by + 2.5), &is));
+  IS(is == 0);
+  OK(mediant_space_sees(made.space, start, corner, &is));
+  IS(is == 1);
+  OK(mediant_space_sees(made.space, start, goal, &is));
+  IS(is == 0);
+  mediant_batch path;
+  mediant_paths paths;
+  OK(mediant_space_path(made.space, start, goal, NULL, &path));
+  OK(mediant_batch_paths(path, &paths));
+  NEAR(paths.lengths[0], hypot(4.5, 0.75) + sqrt(10));
+  OK(mediant_batch_free(path));
+
+  mediant_field field;
+  double length = 0;
+  size_t count = 0;
+  mediant_point sources[] = {start, beside};
+  OK(mediant_field_new(made.space, sources, 2, INFINITY, NULL, &field));
+  OK(mediant_field_get(field, at(by + 0.75, by + 0.25), &length));
+  NEAR(length, 0.25);
+  OK(mediant_field_get(field, beside, &length));
+  IS(length == 0);
+  OK(mediant_field_nearest_source(field, at(by + 0.5, by + 3), &next, &is));
+  IS(is == 1 && same(next, beside));
+  OK(mediant_field_path_from(field, at(by + 5.5, by + 0.5), points, COUNT(points), &count));
+  IS(count == 2 && same(points[1], start));
+  OK(mediant_field_direction(field, at(by + 4.5, by + 0.25), &next));
+  NEAR(next.x, -1);
+  OK(mediant_field_free(field));
+  mediant_point wall = at(by + 1.5, by + 1.5);
+  FAILS(mediant_field_new(made.space, &wall, 1, INFINITY, NULL, &field), MEDIANT_CODE_START_BLOCKED,
+        "the source");
+  drop(made);
+}
+
+void test_points_anywhere(void) {
+  const char *engines[] = {NULL, "engine=anya", "engine=subgoal", "engine=subgoal levels=labels",
+                           "engine=subgoal levels=contracted", "engine=subgoal levels=all",
+                           "engine=subgoal levels=1"};
+  for (size_t engine = 0; engine < COUNT(engines); engine++) {
+    ends_anywhere("k=any gap=closed", engines[engine], 0);
+    ends_anywhere("k=any gap=open", engines[engine], 0);
+    ends_anywhere("placement=center k=any", engines[engine], -0.5);
+    ends_anywhere("placement=center k=any gap=open", engines[engine], -0.5);
+  }
+  points_of_space("k=any gap=closed", 0);
+  points_of_space("k=any gap=open", 0);
+  points_of_space("placement=center k=any", -0.5);
 }
 
 void test_goals(void) {
