@@ -87,7 +87,7 @@ enum mediant_code
   MEDIANT_CODE_NOT_BEGUN = 30,
   // Memory that there is not.
   MEDIANT_CODE_MEMORY = 31,
-  // Work that a flag stopped.
+  // Work that its watcher stopped.
   MEDIANT_CODE_CANCELLED = 32,
   // Work that a limit stopped: on its time, on cost or expansions.
   MEDIANT_CODE_STOPPED = 33,
@@ -150,9 +150,9 @@ enum mediant_limit
   MEDIANT_LIMIT_COST = 1,
   // The limit on expansions.
   MEDIANT_LIMIT_EXPANSIONS = 2,
-  // The time, or a function of the caller's that said so.
+  // The time.
   MEDIANT_LIMIT_TIMEOUT = 3,
-  // A flag.
+  // The watcher, which said so.
   MEDIANT_LIMIT_CANCELLED = 4,
 };
 #ifndef __cplusplus
@@ -195,10 +195,12 @@ typedef struct {
 } mediant_ends;
 
 // Functions that are called while some work goes on. They may be called from any thread, and must not let
-// an exception out. Each may be null.
+// an exception out. They may call the library, but for the planner whose call they are in: it is busy. Each
+// may be null.
 typedef struct {
-  // Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_STOPPED`; a search
-  // answers with `MEDIANT_STATUS_STOPPED`. It is asked some hundred times a second or more.
+  // Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_CANCELLED`; a search
+  // answers with `MEDIANT_STATUS_STOPPED` and `MEDIANT_LIMIT_CANCELLED`. It is asked some hundred times a
+  // second or more, and not again once it has said so.
   int32_t (*stop)(void *data);
   // Is told how much is done of how much, at most some hundred times.
   void (*progress)(void *data, uint64_t done, uint64_t total);
@@ -206,7 +208,7 @@ typedef struct {
   void *data;
 } mediant_watcher;
 
-// Many paths, one after another in three arrays. `{0}` is none.
+// Paths, one after another in three arrays. `{0}` is none.
 typedef struct {
   // Its number.
   uint64_t id;
@@ -287,7 +289,7 @@ typedef struct {
   // The limit that stopped the search, if its status is stopped.
   mediant_limit stopped_by;
   // The number of the path's points; 0 without one.
-  size_t points;
+  size_t point_count;
   // The length of the path that was asked for, in cells, or its cost where cells have costs; infinity
   // where there is none, NaN where the search was stopped.
   double distance;
@@ -329,7 +331,7 @@ size_t mediant_objects(void);
 
 // The moves of N(k), clockwise from (0, 1): as many as there is room for, and how many there are: 2^k.
 //
-// # Safety
+// Required:
 // `moves` leads to memory for `room` cells; `count` leads to memory for a number.
 mediant_code mediant_moves(uint32_t k,
                            mediant_cell *moves,
@@ -339,7 +341,7 @@ mediant_code mediant_moves(uint32_t k,
 // How much longer than the shortest at any angle the shortest paths of a motion can be: 1.08 is 8 %. NaN
 // where no bound is proven.
 //
-// # Safety
+// Required:
 // `motion` is a text or null; `bound` leads to memory for a number.
 mediant_code mediant_bound(const char *motion,
                            double *bound);
@@ -347,7 +349,7 @@ mediant_code mediant_bound(const char *motion,
 // The paths of many queries, by so many threads; 0 is one for each core. A query with a mistake, such as a
 // blocked end, has a code of its own. The watcher is told how many queries are done.
 //
-// # Safety
+// Required:
 // `ends` leads to `count` pairs; `watcher` is null or leads to one; `batch` leads to a handle's memory.
 mediant_code mediant_index_paths(mediant_index index,
                                  const mediant_ends *ends,
@@ -358,7 +360,7 @@ mediant_code mediant_index_paths(mediant_index index,
 
 // The paths of a batch.
 //
-// # Safety
+// Required:
 // `paths` leads to memory for it.
 mediant_code mediant_batch_paths(mediant_batch batch, mediant_paths *paths);
 
@@ -367,7 +369,7 @@ mediant_code mediant_batch_free(mediant_batch batch);
 
 // Where the bytes are, and how many. They stay until they are freed.
 //
-// # Safety
+// Required:
 // `data` leads to memory for a pointer, `size` to a number's.
 mediant_code mediant_bytes_data(mediant_bytes bytes, const uint8_t **data, size_t *size);
 
@@ -384,7 +386,7 @@ const char *mediant_code_name(int32_t code);
 
 // The distances of all vertices to the nearest source, up to `limit` cells (or costs); infinity is none.
 //
-// # Safety
+// Required:
 // `sources` leads to `count` points; `watcher` is null or leads to one; `field` leads to a handle's memory.
 mediant_code mediant_field_new(mediant_space space,
                                const mediant_point *sources,
@@ -399,7 +401,7 @@ mediant_code mediant_field_free(mediant_field field);
 // The field of the same sources on a changed map of the same motion, by work that follows the vertices whose
 // distances change, where that can be.
 //
-// # Safety
+// Required:
 // `repaired` leads to a handle's memory.
 mediant_code mediant_field_repair(mediant_field field,
                                   mediant_space space,
@@ -407,14 +409,14 @@ mediant_code mediant_field_repair(mediant_field field,
 
 // The numbers of vertices in a row, and of rows.
 //
-// # Safety
+// Required:
 // Both lead to memory for a number.
 mediant_code mediant_field_size(mediant_field field, uint32_t *width, uint32_t *height);
 
 // Writes the distances of all vertices, row by row, as many as there is room for; infinity where no path
 // leads.
 //
-// # Safety
+// Required:
 // `distances` leads to memory for `room` numbers.
 mediant_code mediant_field_distances(mediant_field field,
                                      double *distances,
@@ -423,7 +425,7 @@ mediant_code mediant_field_distances(mediant_field field,
 // Writes the directions in which the shortest paths leave the vertices, row by row: dx, dy, of length 1
 // together; 0, 0 at sources and where no path leads. As many numbers as there is room for.
 //
-// # Safety
+// Required:
 // `flow` leads to memory for `room` numbers.
 mediant_code mediant_field_flow(mediant_field field,
                                 float *flow,
@@ -431,13 +433,13 @@ mediant_code mediant_field_flow(mediant_field field,
 
 // The distance of a point; infinity where no path leads.
 //
-// # Safety
+// Required:
 // `distance` leads to memory for a number.
 mediant_code mediant_field_get(mediant_field field, mediant_point at, double *distance);
 
 // The direction in which the shortest path leaves a point; 0, 0 at a source and where no path leads.
 //
-// # Safety
+// Required:
 // `direction` leads to memory for a point.
 mediant_code mediant_field_direction(mediant_field field,
                                      mediant_point at,
@@ -446,7 +448,7 @@ mediant_code mediant_field_direction(mediant_field field,
 // The vertex to which the shortest path leads next, and whether there is one: 1, or 0 at a source and where
 // no path leads.
 //
-// # Safety
+// Required:
 // `next` leads to memory for a point, `there` to a number's.
 mediant_code mediant_field_next(mediant_field field,
                                 mediant_point at,
@@ -455,7 +457,7 @@ mediant_code mediant_field_next(mediant_field field,
 
 // The source that is nearest to a point, and whether there is one: 1, or 0 where no path leads.
 //
-// # Safety
+// Required:
 // `source` leads to memory for a point, `there` to a number's.
 mediant_code mediant_field_nearest_source(mediant_field field,
                                           mediant_point at,
@@ -465,7 +467,7 @@ mediant_code mediant_field_nearest_source(mediant_field field,
 // The shortest path from a point to the nearest source: its points, as many as there is room for, and how
 // many there are; 0 where none leads.
 //
-// # Safety
+// Required:
 // `points` leads to memory for `room` points; `count` leads to memory for a number.
 mediant_code mediant_field_path_from(mediant_field field,
                                      mediant_point at,
@@ -475,7 +477,7 @@ mediant_code mediant_field_path_from(mediant_field field,
 
 // Prepares goals that many starts ask for.
 //
-// # Safety
+// Required:
 // `points` leads to `count` points; `goals` leads to a handle's memory.
 mediant_code mediant_goals_new(mediant_index index,
                                const mediant_point *points,
@@ -488,7 +490,7 @@ mediant_code mediant_goals_free(mediant_goals goals);
 // The lengths of the paths from each of many starts to each of many goals, a row for each start; infinity
 // where none leads. On all cores.
 //
-// # Safety
+// Required:
 // `starts` and `goals` lead to as many points as they have; `watcher` is null or leads to one; `lengths`
 // leads to memory for `start_count` · `goal_count` numbers.
 mediant_code mediant_index_table(mediant_index index,
@@ -503,7 +505,7 @@ mediant_code mediant_index_table(mediant_index index,
 // `"engine=subgoal memory=100MB"`; null is the best engine for what the space is. The watcher is told how
 // far each stage is.
 //
-// # Safety
+// Required:
 // `engine` is a text or null; `watcher` is null or leads to one; `index` leads to a handle's memory.
 mediant_code mediant_index_prepare(mediant_space space,
                                    const char *engine,
@@ -513,7 +515,7 @@ mediant_code mediant_index_prepare(mediant_space space,
 // Reads an index that `mediant_index_save` wrote, of the same map. `options` are those of its engine; null
 // is as it was prepared.
 //
-// # Safety
+// Required:
 // `path` is a text, `options` one or null; `index` leads to a handle's memory.
 mediant_code mediant_index_load(mediant_map map,
                                 const char *path,
@@ -522,7 +524,7 @@ mediant_code mediant_index_load(mediant_map map,
 
 // The index of bytes that `mediant_index_to_bytes` gave, of the same map.
 //
-// # Safety
+// Required:
 // `bytes` leads to `size` bytes; `options` is a text or null; `index` leads to a handle's memory.
 mediant_code mediant_index_from_bytes(mediant_map map,
                                       const uint8_t *bytes,
@@ -532,13 +534,13 @@ mediant_code mediant_index_from_bytes(mediant_map map,
 
 // Writes an index to a file. The file is whole or not there.
 //
-// # Safety
+// Required:
 // `path` is a text.
 mediant_code mediant_index_save(mediant_index index, const char *path);
 
 // The index as bytes.
 //
-// # Safety
+// Required:
 // `bytes` leads to a handle's memory.
 mediant_code mediant_index_to_bytes(mediant_index index, mediant_bytes *bytes);
 
@@ -548,7 +550,7 @@ mediant_code mediant_index_free(mediant_index index);
 // The index for a changed map of the same motion, repaired by work that follows the difference of the maps.
 // This index stays as it is.
 //
-// # Safety
+// Required:
 // `repaired` leads to a handle's memory.
 mediant_code mediant_index_repair(mediant_index index,
                                   mediant_space space,
@@ -557,7 +559,7 @@ mediant_code mediant_index_repair(mediant_index index,
 // This index with all that a repair left made anew, which takes as long as to prepare it: do it after some
 // edits, in another thread.
 //
-// # Safety
+// Required:
 // `watcher` is null or leads to one; `finished` leads to a handle's memory.
 mediant_code mediant_index_finish(mediant_index index,
                                   const mediant_watcher *watcher,
@@ -566,27 +568,27 @@ mediant_code mediant_index_finish(mediant_index index,
 // The space of an index, such as of one that was loaded: another handle of the same space. Threads that look
 // up one handle wait for one another, for a moment each; with one of its own a thread does not.
 //
-// # Safety
+// Required:
 // `space` leads to a handle's memory.
 mediant_code mediant_index_space(mediant_index index,
                                  mediant_space *space);
 
 // Whether nothing of an index is that of an earlier map: 1 or 0.
 //
-// # Safety
+// Required:
 // `finished` leads to memory for a number.
 mediant_code mediant_index_is_finished(mediant_index index, int32_t *finished);
 
 // The memory that an index takes beyond its space, in bytes.
 //
-// # Safety
+// Required:
 // `bytes` leads to memory for a number.
 mediant_code mediant_index_memory(mediant_index index, uint64_t *bytes);
 
 // The engine, motion and options of an index as a text, ended by 0: as much as there is room for, always
 // ended; and its whole length without the end.
 //
-// # Safety
+// Required:
 // `text` leads to memory for `room` bytes; `length` leads to memory for a number.
 mediant_code mediant_index_setup(mediant_index index,
                                  char *text,
@@ -596,28 +598,28 @@ mediant_code mediant_index_setup(mediant_index index,
 // How much longer than the shortest path at any angle the paths of an index can be: 1.08 is 8 %. NaN where no
 // bound is proven.
 //
-// # Safety
+// Required:
 // `bound` leads to memory for a number.
 mediant_code mediant_index_bound(mediant_index index,
                                  double *bound);
 
 // Reads a map from a file: a `.map` of `MovingAI`, a picture (PNG, PGM), or the YAML of a ROS map.
 //
-// # Safety
+// Required:
 // `path` is a text; `map` leads to a handle's memory.
 mediant_code mediant_map_open(const char *path, mediant_map *map);
 
 // Makes a map of rows of text, ended by line breaks: `.`, `G` and `S` are free, `@`, `O`, `T`, `W` and `#`
 // blocked.
 //
-// # Safety
+// Required:
 // `rows` is a text; `map` leads to a handle's memory.
 mediant_code mediant_map_parse(const char *rows,
                                mediant_map *map);
 
 // Makes a map of bytes, row by row: 0 is free, all else blocked. Null is a map without obstacles.
 //
-// # Safety
+// Required:
 // `blocked` is null or leads to `width` · `height` bytes; `map` leads to a handle's memory.
 mediant_code mediant_map_new(uint32_t width,
                              uint32_t height,
@@ -627,7 +629,7 @@ mediant_code mediant_map_new(uint32_t width,
 // Makes a map of bits, row by row without padding: bit i is in byte i / 8, the least significant one first;
 // 1 is free.
 //
-// # Safety
+// Required:
 // `free` leads to (`width` · `height` + 7) / 8 bytes; `map` leads to a handle's memory.
 mediant_code mediant_map_from_bits(uint32_t width,
                                    uint32_t height,
@@ -639,26 +641,26 @@ mediant_code mediant_map_free(mediant_map map);
 
 // The numbers of columns and of rows.
 //
-// # Safety
+// Required:
 // `width` and `height` lead to memory for a number each.
 mediant_code mediant_map_size(mediant_map map, uint32_t *width, uint32_t *height);
 
 // Writes all cells, row by row: 0 is free, 1 blocked; as many as there is room for.
 //
-// # Safety
+// Required:
 // `blocked` leads to memory for `room` bytes.
 mediant_code mediant_map_cells(mediant_map map, uint8_t *blocked, size_t room);
 
 // Whether a cell is blocked: 1 or 0. All outside the map is.
 //
-// # Safety
+// Required:
 // `blocked` leads to memory for a number.
 mediant_code mediant_map_is_blocked(mediant_map map, mediant_cell cell, int32_t *blocked);
 
 // This map with other cells in a rectangle: `blocked` has a byte for each of its cells, row by row, 0 for
 // free; those beyond the map are left out. The work follows the rectangle, and the maps share the rest.
 //
-// # Safety
+// Required:
 // `blocked` leads to a byte for each cell of the area; `edited` leads to a handle's memory.
 mediant_code mediant_map_edit(mediant_map map,
                               mediant_area area,
@@ -667,7 +669,7 @@ mediant_code mediant_map_edit(mediant_map map,
 
 // This map with other scattered cells: each is blocked where its byte is not 0, and else free.
 //
-// # Safety
+// Required:
 // `cells` and `blocked` lead to `count` values each; `edited` leads to a handle's memory.
 mediant_code mediant_map_edit_cells(mediant_map map,
                                     const mediant_cell *cells,
@@ -678,7 +680,7 @@ mediant_code mediant_map_edit_cells(mediant_map map,
 // This map with a cost a unit of length for each cell, row by row: a number of 0 or more; those of blocked
 // cells do not matter.
 //
-// # Safety
+// Required:
 // `costs` leads to a number for each cell; `priced` leads to a handle's memory.
 mediant_code mediant_map_costs(mediant_map map,
                                const double *costs,
@@ -688,7 +690,7 @@ mediant_code mediant_map_costs(mediant_map map,
 // This map, which has costs, with other ones of scattered cells: a cell with a number is free, one with NaN
 // blocked.
 //
-// # Safety
+// Required:
 // `cells` and `costs` lead to `count` values each; `edited` leads to a handle's memory.
 mediant_code mediant_map_edit_costs(mediant_map map,
                                     const mediant_cell *cells,
@@ -699,7 +701,7 @@ mediant_code mediant_map_edit_costs(mediant_map map,
 // The map of a disc: free where one with this radius, in cells, fits around the vertex. `motion` as for
 // `mediant_space_new`.
 //
-// # Safety
+// Required:
 // `motion` is a text or null; `fitted` leads to a handle's memory.
 mediant_code mediant_map_for_disc(mediant_map map,
                                   double radius,
@@ -708,53 +710,47 @@ mediant_code mediant_map_for_disc(mediant_map map,
 
 // The map of an agent that covers n × n cells; its place is its top left cell.
 //
-// # Safety
+// Required:
 // `fitted` leads to a handle's memory.
 mediant_code mediant_map_for_square(mediant_map map, uint32_t n, mediant_map *fitted);
 
 // Writes the distance of each cell's center to the nearest obstacle, in cells, row by row: 0 in blocked
 // cells; as many as there is room for. The outside is an obstacle.
 //
-// # Safety
+// Required:
 // `distances` leads to memory for `room` numbers.
 mediant_code mediant_map_clearance(mediant_map map,
                                    double *distances,
                                    size_t room);
 
-// A path of a single question: without an index. As `mediant_planner_path`, by the engine that is best for
-// one path.
+// A path of a single question, without an index, by the engine that is best for one path: as a batch with
+// this path alone, so that however many points it has, it is found once.
 //
-// # Safety
-// `watcher` is null or leads to one; `points` leads to memory for `room` points; `count` and `length` lead to
-// memory for a number each.
+// Required:
+// `watcher` is null or leads to one; `path` leads to a handle's memory.
 mediant_code mediant_space_path(mediant_space space,
                                 mediant_point start,
                                 mediant_point goal,
                                 const mediant_watcher *watcher,
-                                mediant_point *points,
-                                size_t room,
-                                size_t *count,
-                                double *length);
+                                mediant_batch *path);
 
 // The path that keeps as far off obstacles as one can that is at most so much longer than the shortest: 0.2
-// is a fifth. Writes its points and their number as `mediant_space_path`, and its least distance to
-// obstacles, in cells; NaN where there is no path.
+// is a fifth. As a batch with this path alone, as `mediant_space_path`; and its least distance to obstacles,
+// in cells, NaN where there is no path.
 //
-// # Safety
+// Required:
 // As for `mediant_space_path`; `radius` leads to memory for a number.
 mediant_code mediant_space_widest_path(mediant_space space,
                                        mediant_cell start,
                                        mediant_cell goal,
                                        double surplus,
                                        const mediant_watcher *watcher,
-                                       mediant_point *points,
-                                       size_t room,
-                                       size_t *count,
+                                       mediant_batch *path,
                                        double *radius);
 
 // The name of the engine that is best for so many paths in this space, and a sentence that says why.
 //
-// # Safety
+// Required:
 // `engine` leads to memory for a pointer; `why` to `room` bytes, `length` to a number's.
 mediant_code mediant_space_engine(mediant_space space,
                                   uint64_t paths,
@@ -766,7 +762,7 @@ mediant_code mediant_space_engine(mediant_space space,
 // Every vertex on a path, where its points are the turns alone: as many as there is room for, and how many
 // there are. A path with points between vertices has none.
 //
-// # Safety
+// Required:
 // `points` leads to `count` points, `vertices` to memory for `room` cells, `total` to a number's.
 mediant_code mediant_path_vertices(const mediant_point *points,
                                    size_t count,
@@ -776,7 +772,7 @@ mediant_code mediant_path_vertices(const mediant_point *points,
 
 // The cells that a path touches in a space: as many as there is room for, and how many there are.
 //
-// # Safety
+// Required:
 // As for `mediant_path_vertices`.
 mediant_code mediant_path_touched_cells(mediant_space space,
                                         const mediant_point *points,
@@ -788,7 +784,7 @@ mediant_code mediant_path_touched_cells(mediant_space space,
 // Points on a path, evenly spaced by so many cells, and its last one: as many as there is room for, and how
 // many there are.
 //
-// # Safety
+// Required:
 // `points` leads to `count` points, `spaced` to memory for `room` points, `total` to a number's.
 mediant_code mediant_path_spaced(const mediant_point *points,
                                  size_t count,
@@ -799,7 +795,7 @@ mediant_code mediant_path_spaced(const mediant_point *points,
 
 // A planner on an index, with scratch memory of its own.
 //
-// # Safety
+// Required:
 // `planner` leads to a handle's memory.
 mediant_code mediant_planner_new(mediant_index index, mediant_planner *planner);
 
@@ -810,7 +806,7 @@ mediant_code mediant_planner_free(mediant_planner planner);
 // (0 where there is no path), and its length (infinity then; where cells have costs, its cost). With more
 // points than room, `mediant_planner_points` has all of them.
 //
-// # Safety
+// Required:
 // `points` leads to memory for `room` points; `count` and `length` lead to memory for a number each.
 mediant_code mediant_planner_path(mediant_planner planner,
                                   mediant_point start,
@@ -823,7 +819,7 @@ mediant_code mediant_planner_path(mediant_planner planner,
 // The points of the path that the planner found last: of `mediant_planner_path`, `_find`, `_step`,
 // `_find_except`.
 //
-// # Safety
+// Required:
 // `points` leads to memory for `room` points; `count` leads to memory for a number.
 mediant_code mediant_planner_points(mediant_planner planner,
                                     mediant_point *points,
@@ -834,7 +830,7 @@ mediant_code mediant_planner_points(mediant_planner planner,
 // `snap`, `tolerance`, `max_cost`, `max_expansions`, `timeout` (in milliseconds), as in
 // `"nearest max_cost=20"`; null is none. `mediant_planner_points` has the path.
 //
-// # Safety
+// Required:
 // `starts` and `goals` lead to as many points as they have; `wishes` is a text or null; `watcher` is null or
 // leads to one; `answer` leads to an answer's memory.
 mediant_code mediant_planner_find(mediant_planner planner,
@@ -848,7 +844,7 @@ mediant_code mediant_planner_find(mediant_planner planner,
 
 // The length of the path between two points, without the path: infinity where there is none.
 //
-// # Safety
+// Required:
 // `length` leads to memory for a number.
 mediant_code mediant_planner_distance(mediant_planner planner,
                                       mediant_point start,
@@ -858,7 +854,7 @@ mediant_code mediant_planner_distance(mediant_planner planner,
 // Begins a search, and forgets the last one. Nothing is expanded yet. Any other query of this planner forgets
 // it. What a watcher calls, and its data, must stay until the search has answered or is forgotten.
 //
-// # Safety
+// Required:
 // As for `mediant_planner_find`.
 mediant_code mediant_planner_begin(mediant_planner planner,
                                    const mediant_point *starts,
@@ -871,7 +867,7 @@ mediant_code mediant_planner_begin(mediant_planner planner,
 // Continues the search by at most so many expansions, and writes whether it has answered: 1 or 0. The answer
 // is written then.
 //
-// # Safety
+// Required:
 // `done` leads to memory for a number, `answer` to an answer's.
 mediant_code mediant_planner_step(mediant_planner planner,
                                   uint64_t expansions,
@@ -881,7 +877,7 @@ mediant_code mediant_planner_step(mediant_planner planner,
 // How far the search is that was begun: the number of its expansions, and a lower bound on the length of the
 // path that is sought. 0 without one.
 //
-// # Safety
+// Required:
 // Both lead to memory for a number.
 mediant_code mediant_planner_progress(mediant_planner planner,
                                       uint64_t *expansions,
@@ -890,7 +886,7 @@ mediant_code mediant_planner_progress(mediant_planner planner,
 // The best path so far of the search that was begun: to a goal, if one was found, else to the vertex nearest
 // to a goal among those that it expanded. No points without a search.
 //
-// # Safety
+// Required:
 // As for `mediant_planner_points`.
 mediant_code mediant_planner_best(mediant_planner planner,
                                   mediant_point *points,
@@ -899,7 +895,7 @@ mediant_code mediant_planner_best(mediant_planner planner,
 
 // The path by which the search that was begun has reached a vertex; no points where it has not.
 //
-// # Safety
+// Required:
 // As for `mediant_planner_points`.
 mediant_code mediant_planner_path_to(mediant_planner planner,
                                      mediant_point at,
@@ -914,25 +910,26 @@ mediant_code mediant_planner_follow(mediant_planner planner,
 
 // The name of the engine that answered the last query. It stays for ever.
 //
-// # Safety
+// Required:
 // `engine` leads to memory for a pointer.
 mediant_code mediant_planner_searched_by(mediant_planner planner, const char **engine);
 
-// The lengths of the paths to each of many goals, in their order, as many as there is room for; infinity
-// where none leads.
+// The lengths of the paths to each of many goals, in their order, as many as there is room for, and how many
+// there are; infinity where none leads.
 //
-// # Safety
-// `lengths` leads to memory for `room` numbers.
+// Required:
+// `lengths` leads to memory for `room` numbers; `count` leads to memory for a number.
 mediant_code mediant_planner_distances(mediant_planner planner,
                                        mediant_point start,
                                        mediant_goals goals,
                                        double *lengths,
-                                       size_t room);
+                                       size_t room,
+                                       size_t *count);
 
 // The goal to which the path is shortest, by its number, and the length of that path: infinity if there is
 // no way to any.
 //
-// # Safety
+// Required:
 // `goal` and `length` lead to memory for a number each.
 mediant_code mediant_planner_nearest(mediant_planner planner,
                                      mediant_point start,
@@ -942,7 +939,7 @@ mediant_code mediant_planner_nearest(mediant_planner planner,
 
 // Answers a query as on the map with some cells edited: as `mediant_planner_find`.
 //
-// # Safety
+// Required:
 // As for `mediant_planner_find`; `exceptions` leads to one, whose arrays have as many cells as it says.
 mediant_code mediant_planner_find_except(mediant_planner planner,
                                          const mediant_point *starts,
@@ -958,7 +955,7 @@ mediant_code mediant_planner_find_except(mediant_planner planner,
 // as in `"k=any gap=closed"`. Null is eight directions between the centers of cells, without cutting
 // corners.
 //
-// # Safety
+// Required:
 // `motion` is a text or null; `space` leads to a handle's memory.
 mediant_code mediant_space_new(mediant_map map,
                                const char *motion,
@@ -969,13 +966,13 @@ mediant_code mediant_space_free(mediant_space space);
 
 // Whether a path may stand on a point: 1 or 0.
 //
-// # Safety
+// Required:
 // `free` leads to memory for a number.
 mediant_code mediant_space_is_free(mediant_space space, mediant_point at, int32_t *free);
 
 // Whether there is a path between two points: 1 or 0, in constant time.
 //
-// # Safety
+// Required:
 // `connected` leads to memory for a number.
 mediant_code mediant_space_connected(mediant_space space,
                                      mediant_point from,
@@ -984,7 +981,7 @@ mediant_code mediant_space_connected(mediant_space space,
 
 // Whether the straight segment between two points obeys the rules of motion: 1 or 0.
 //
-// # Safety
+// Required:
 // `seen` leads to memory for a number.
 mediant_code mediant_space_sees(mediant_space space,
                                 mediant_point from,
@@ -995,7 +992,7 @@ mediant_code mediant_space_sees(mediant_space space,
 // it does not, the code is `MEDIANT_CODE_BROKEN_PATH`, and the message names the segment and the first
 // blocked cell on it.
 //
-// # Safety
+// Required:
 // `points` leads to `count` points.
 mediant_code mediant_space_check(mediant_space space,
                                  const mediant_point *points,

@@ -20,7 +20,7 @@ pub struct Answer {
     /// The limit that stopped the search, if its status is stopped.
     pub stopped_by: PathLimit,
     /// The number of the path's points; 0 without one.
-    pub points: usize,
+    pub point_count: usize,
     /// The length of the path that was asked for, in cells, or its cost where cells have costs; infinity
     /// where there is none, NaN where the search was stopped.
     pub distance: f64,
@@ -38,7 +38,7 @@ impl Answer {
         Self {
             status: answer.status().into(),
             stopped_by: answer.stopped_by().into(),
-            points: path.map_or(0, Path::len),
+            point_count: path.map_or(0, Path::len),
             distance: answer.distance(guarantee),
             length: path.map_or(0.0, Path::length),
             lower_bound: answer.lower_bound(guarantee),
@@ -52,6 +52,13 @@ pub(crate) fn told(answer: &Inner) -> Option<&Path> {
     answer.path().or_else(|| answer.best())
 }
 
+/// Checks the places of a path before the work.
+#[inline]
+pub(crate) fn check_places(points: *mut Point, room: usize, count: *mut usize) -> Result<(), Failure> {
+    memory::check_room("points", points, room)?;
+    memory::check_place("count", count)
+}
+
 /// Writes the points of a path, as many as there is room for, and how many there are.
 ///
 /// # Safety
@@ -62,7 +69,6 @@ pub(crate) unsafe fn write(
     (points, room): (*mut Point, usize),
     count: *mut usize,
 ) -> Result<(), Failure> {
-    memory::check_place("count", count)?;
     // SAFETY: the caller promises it.
     unsafe {
         if let Some(path) = path {

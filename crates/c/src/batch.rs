@@ -11,7 +11,7 @@ use std::{
     thread,
 };
 
-use library::{Answer, Index, Planner, Planners, PointEnds, Query};
+use library::{Answer, Index, Path, Planner, Planners, PointEnds, Query};
 
 use crate::{
     code::Code,
@@ -23,7 +23,7 @@ use crate::{
     watch::{Watch, Watcher},
 };
 
-/// Many paths, one after another in three arrays. `{0}` is none.
+/// Paths, one after another in three arrays. `{0}` is none.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct BatchHandle {
@@ -51,6 +51,20 @@ impl Held for Batch {
     }
 }
 
+impl BatchHandle {
+    /// Keeps paths, and writes their handle.
+    ///
+    /// # Safety
+    /// As for [`memory::put`].
+    pub(crate) unsafe fn put(batch: Batch, place: (&str, *mut Self)) -> Result<(), Failure> {
+        let (name, place) = place;
+        memory::check_place(name, place)?;
+        let id = Batch::handles().share(batch)?;
+        // SAFETY: the caller promises it.
+        unsafe { memory::put(name, place, Self { id }) }
+    }
+}
+
 /// The queries that a thread takes at a time.
 const PIECE: usize = 256;
 
@@ -75,13 +89,13 @@ pub unsafe extern "C" fn mediant_index_paths(
         let (ends, watch) = unsafe { (memory::array("ends", ends, count)?, Watch::read(watcher)?) };
         let cores = || thread::available_parallelism().map_or(1, NonZeroUsize::get);
         let threads = if threads == 0 { cores() } else { threads };
-        let id = Batch::handles().share(paths(&index, ends, threads, watch)?)?;
+        let found = paths(&index, ends, threads, &watch)?;
         // SAFETY: as above.
-        unsafe { memory::put("batch", batch, BatchHandle { id }) }
+        unsafe { BatchHandle::put(found, ("batch", batch)) }
     })
 }
 
-fn paths(index: &Index, ends: &[Ends], threads: usize, watch: Watch) -> Result<Batch, Failure> {
+fn paths(index: &Index, ends: &[Ends], threads: usize, watch: &Watch) -> Result<Batch, Failure> {
     let planners = Planners::new(index.clone());
     let (next, done, is_stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
     let pieces = ends.len().div_ceil(PIECE);
@@ -119,8 +133,7 @@ fn paths(index: &Index, ends: &[Ends], threads: usize, watch: Watch) -> Result<B
         Ok::<_, Failure>(all)
     })?;
     if is_stopped.into_inner() {
-        let text = "stopped by its watcher while finding paths".to_owned();
-        return Err(Failure { code: Code::Stopped, text });
+        return Err(Watch::stopped("finding paths"));
     }
     all.sort_unstable_by_key(|(piece, _)| *piece);
     Ok(all
@@ -130,7 +143,7 @@ fn paths(index: &Index, ends: &[Ends], threads: usize, watch: Watch) -> Result<B
 
 impl Batch {
     /// The paths of some queries, unless the watcher stops one: long ones ask it too.
-    fn of(planner: &mut Planner, ends: &[Ends], watch: Watch) -> Option<Self> {
+    fn of(planner: &mut Planner, ends: &[Ends], watch: &Watch) -> Option<Self> {
         let limits = watch.can_stop().then(|| watch.stopping());
         let mut batch = Self::default();
         for ends in ends {
@@ -145,18 +158,28 @@ impl Batch {
                 Ok(Answer::Stopped(_)) => return None,
                 found => found.map(Answer::into_path),
             };
-            let (length, code) = match &found {
-                Ok(path) => (path.as_ref().map_or(f64::INFINITY, library::Path::cost), Code::Ok),
-                Err(failure) => (f64::NAN, failure.code),
-            };
-            batch.lengths.push(length);
-            batch.codes.push(code as i32);
-            if let Ok(Some(path)) = found {
-                batch.points.extend(path.points().map(Point::from));
+            match found {
+                Ok(path) => batch.push(path.as_ref(), Code::Ok),
+                Err(failure) => batch.push(None, failure.code),
             }
-            batch.firsts.push(batch.points.len());
         }
         Some(batch)
+    }
+
+    /// The path of a single question.
+    pub(crate) fn of_one(path: Option<&Path>) -> Self {
+        let mut batch = Self { firsts: vec![0], ..Self::default() };
+        batch.push(path, Code::Ok);
+        batch
+    }
+
+    /// Adds the path of a query, or none.
+    fn push(&mut self, path: Option<&Path>, code: Code) {
+        let none = if code == Code::Ok { f64::INFINITY } else { f64::NAN };
+        self.lengths.push(path.map_or(none, Path::cost));
+        self.codes.push(code as i32);
+        self.points.extend(path.into_iter().flat_map(Path::points).map(Point::from));
+        self.firsts.push(self.points.len());
     }
 
     /// These paths, and others after them.

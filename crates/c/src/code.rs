@@ -70,7 +70,7 @@ pub enum Code {
     NotBegun = 30,
     /// Memory that there is not.
     Memory = 31,
-    /// Work that a flag stopped.
+    /// Work that its watcher stopped.
     Cancelled = 32,
     /// Work that a limit stopped: on its time, on cost or expansions.
     Stopped = 33,
@@ -266,9 +266,9 @@ pub enum PathLimit {
     Cost = 1,
     /// The limit on expansions.
     Expansions = 2,
-    /// The time, or a function of the caller's that said so.
+    /// The time.
     Timeout = 3,
-    /// A flag.
+    /// The watcher, which said so.
     Cancelled = 4,
 }
 
@@ -281,5 +281,47 @@ impl From<Option<Limit>> for PathLimit {
             Some(Limit::Timeout) => Self::Timeout,
             Some(_) => Self::Cancelled,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Programs that were compiled against an earlier header have these numbers in them.
+    #[rustfmt::skip]
+    const NUMBERS: &[(i32, &str)] = &[
+        (0, "ok"), (1, "map-size"), (2, "map-ragged"), (3, "edit-outside"), (4, "k"), (5, "motion"),
+        (6, "unknown-name"), (7, "setup-text"), (8, "engine-option"), (9, "engine-k"), (10, "engine-rules"),
+        (11, "engine-without"), (12, "mismatch"), (13, "start-blocked"), (14, "goal-blocked"),
+        (15, "start-outside"), (16, "goal-outside"), (17, "gave-up"), (18, "index-range"),
+        (19, "index-options"), (20, "index-damaged"), (21, "index-engine"), (22, "file-missing"),
+        (23, "file-unreadable"), (24, "file-unwritable"), (25, "map-format"), (26, "scenario-format"),
+        (27, "no-end"), (28, "between-vertices"), (29, "number"), (30, "not-begun"), (31, "memory"),
+        (32, "cancelled"), (33, "stopped"), (34, "argument"), (35, "broken-path"), (36, "map-tile"),
+        (37, "cost"), (38, "handle"), (39, "busy"), (255, "other"),
+    ];
+
+    #[test]
+    fn numbers_and_names_stay() {
+        let known: Vec<_> =
+            Code::ALL.iter().map(|&code| (code as i32, code.name().to_str().unwrap())).collect();
+        assert_eq!(known, NUMBERS, "numbers never change; a new code is a new line at the end");
+    }
+
+    #[test]
+    fn every_error_of_the_library_has_a_number_and_its_name() {
+        for error in ErrorCode::ALL {
+            let code = Code::from(error);
+            assert_eq!(code.name().to_str(), Ok(error.name()), "give it a number in `Code`");
+        }
+    }
+
+    #[test]
+    fn every_status_and_limit_of_the_library_has_a_number() {
+        let statuses = Status::ALL.iter().map(|&status| PathStatus::from(status) as i32);
+        assert_eq!(statuses.collect::<std::collections::HashSet<_>>().len(), Status::ALL.len());
+        let limits = Limit::ALL.iter().map(|&limit| PathLimit::from(Some(limit)) as i32);
+        assert_eq!(limits.collect::<std::collections::HashSet<_>>().len(), Limit::ALL.len());
     }
 }

@@ -8,7 +8,7 @@ use std::{
     panic::{AssertUnwindSafe, catch_unwind},
 };
 
-use library::{Error, call::Spelling};
+use library::{Error, call::Spelling, errors::SetupError};
 
 use crate::code::Code;
 
@@ -25,6 +25,12 @@ impl Failure {
         Self { code: Code::Argument, text: format!("{name}: {wrong}") }
     }
 
+    /// This mistake, where what the library calls starts are sources.
+    pub(crate) fn of_sources(self) -> Self {
+        let text = self.text.replacen("the start", "the source", 1).replacen("no start", "no source", 1);
+        Self { text, ..self }
+    }
+
     /// A panic.
     pub(crate) fn fault() -> Self {
         let text = "a fault in the library: please report it, with the call".to_owned();
@@ -35,8 +41,15 @@ impl Failure {
 impl<E: Into<Error>> From<E> for Failure {
     fn from(error: E) -> Self {
         let error = error.into();
+        // The library's advice in the words of Rust, in those of C.
         let text = match &error {
             Error::Call(wrong) => wrong.text(Spelling::Snake),
+            Error::Freed { cell } => {
+                format!("cell {cell} is freed, and has no cost: free it by mediant_map_edit_costs, with one")
+            }
+            Error::Setup(SetupError::WithoutCosts) => {
+                "the cells of this map have no costs: give them some by mediant_map_costs".to_owned()
+            }
             error => error.to_string(),
         };
         Self { code: error.code().into(), text }

@@ -73,7 +73,8 @@ pub unsafe extern "C" fn mediant_field_new(
         let space = Space::handles().get(space.id)?;
         // SAFETY: the caller promises it.
         let (sources, watch) = unsafe { (points::read("sources", sources, count)?, Watch::read(watcher)?) };
-        let made = space.within(words::limits(watch)).field_within(sources, limit)?;
+        let made = space.within(words::limits(&watch)).field_within(sources, limit);
+        let made = made.map_err(|error| watch.failure(error).of_sources())?;
         // SAFETY: as above.
         unsafe { FieldHandle::put(OfSpace { field: made, space: Space::clone(&space) }, field) }
     })
@@ -262,6 +263,7 @@ pub unsafe extern "C" fn mediant_field_path_from(
     count: *mut usize,
 ) -> Code {
     call(|| {
+        answer::check_places(points, room, count)?;
         let path = OfSpace::handles().get(field.id)?.field.path_from(at.inner("at")?);
         // SAFETY: the caller promises it.
         unsafe { answer::write(path.as_ref(), (points, room), count) }

@@ -88,7 +88,8 @@ pub unsafe extern "C" fn mediant_index_table(
             let starts = points::read("starts", starts, start_count)?;
             (starts, points::read("goals", goals, goal_count)?, Watch::read(watcher)?)
         };
-        let table = index.within(words::limits(watch)).table(starts, goals)?;
+        let table = index.within(words::limits(&watch)).table(starts, goals);
+        let table = table.map_err(|error| watch.failure(error))?;
         // SAFETY: as above.
         unsafe { memory::fill("lengths", lengths, room, table.values().iter().copied()) }
     })

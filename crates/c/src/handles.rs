@@ -44,7 +44,17 @@ impl Kind {
             Self::Bytes => "bytes",
         }
     }
+
+    /// The sentence that an object of this kind is, or was, something; names of several things take a plural.
+    fn says(self, was: (&str, &str), what: &str) -> String {
+        let verb = if matches!(self, Self::Goals | Self::Bytes) { was.1 } else { was.0 };
+        format!("the {} {verb} {what}", self.name())
+    }
 }
+
+/// Of one, and of several.
+const IS: (&str, &str) = ("is", "are");
+const WAS: (&str, &str) = ("was", "were");
 
 /// What has a table of its kind.
 pub(crate) trait Held {
@@ -99,7 +109,7 @@ impl<T> Table<T> {
     /// Keeps an object, and returns its handle.
     pub(crate) fn keep(&self, object: T) -> Result<u64, Failure> {
         let number = self.next()?;
-        let place = self.place(number).ok_or_else(|| self.unknown("was never made"))?;
+        let place = self.place(number).ok_or_else(|| self.unknown(WAS, "never made"))?;
         let mut there = lock(&place.object);
         let count = place.taken.load(Ordering::Relaxed) + 1;
         place.taken.store(count, Ordering::Relaxed);
@@ -141,13 +151,13 @@ impl<T> Table<T> {
     #[inline]
     fn find(&self, handle: u64) -> Result<(&Place<T>, u32), Failure> {
         if handle >> (PLACE_BITS + COUNT_BITS) != self.kind as u64 {
-            let what = if handle == 0 { "is null" } else { "is of another type, or was never made" };
-            return Err(self.unknown(what));
+            let what = if handle == 0 { "null" } else { "of another type, or made up" };
+            return Err(self.unknown(IS, what));
         }
         let number = handle as u32 & ((1 << PLACE_BITS) - 1);
-        let place = self.place(number).ok_or_else(|| self.unknown("was never made"))?;
+        let place = self.place(number).ok_or_else(|| self.unknown(WAS, "never made"))?;
         let count = (handle >> PLACE_BITS) as u32 & MOST_COUNTS;
-        if place.is(count) { Ok((place, count)) } else { Err(self.unknown("was freed")) }
+        if place.is(count) { Ok((place, count)) } else { Err(self.unknown(WAS, "freed")) }
     }
 
     /// Gives an object to a call, which has it alone.
@@ -166,7 +176,7 @@ impl<T> Table<T> {
         };
         match &mut *there {
             Some(object) if place.is(count) => work(object),
-            _ => Err(self.unknown("was freed")),
+            _ => Err(self.unknown(WAS, "freed")),
         }
     }
 
@@ -187,7 +197,7 @@ impl<T> Table<T> {
         (place, count): (&Place<T>, u32),
         mut there: MutexGuard<'_, Option<T>>,
     ) -> Result<(), Failure> {
-        let object = there.take_if(|_| place.is(count)).ok_or_else(|| self.unknown("was freed"))?;
+        let object = there.take_if(|_| place.is(count)).ok_or_else(|| self.unknown(WAS, "freed"))?;
         // Nobody waits for the place while the object is dropped.
         drop(there);
         drop(object);
@@ -205,8 +215,8 @@ impl<T> Table<T> {
     }
 
     #[cold]
-    fn unknown(&self, what: &str) -> Failure {
-        Failure { code: Code::Handle, text: format!("the {} {what}", self.kind.name()) }
+    fn unknown(&self, was: (&str, &str), what: &str) -> Failure {
+        Failure { code: Code::Handle, text: self.kind.says(was, what) }
     }
 
     #[cold]
@@ -234,7 +244,7 @@ impl<T> Table<Arc<T>> {
         let (place, count) = self.find(handle)?;
         match &*lock(&place.object) {
             Some(object) if place.is(count) => Ok(Arc::clone(object)),
-            _ => Err(self.unknown("was freed")),
+            _ => Err(self.unknown(WAS, "freed")),
         }
     }
 

@@ -4,6 +4,10 @@ use std::{env, fs, path::Path};
 
 use crate::about::{VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH};
 
+/// The heading of what a function of Rust asks of its caller, and the one of C: there every function is
+/// called at the caller's risk.
+const HEADINGS: (&str, &str) = ("// # Safety", "// Required:");
+
 #[test]
 fn header_is_of_the_version() {
     let version = format!("{VERSION_MAJOR}.{VERSION_MINOR}.{VERSION_PATCH}");
@@ -17,7 +21,7 @@ fn header_is_that_of_the_functions() {
     let built = cbindgen::Builder::new().with_src(folder.join("src/lib.rs")).with_config(config).generate();
     let mut header = Vec::new();
     built.unwrap().write(&mut header);
-    let header = String::from_utf8(header).unwrap();
+    let header = String::from_utf8(header).unwrap().replace(HEADINGS.0, HEADINGS.1);
     let path = folder.join("include/mediant.h");
     if env::var_os("MEDIANT_WRITE").is_some() {
         fs::create_dir_all(folder.join("include")).unwrap();

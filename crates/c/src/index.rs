@@ -82,7 +82,8 @@ pub unsafe extern "C" fn mediant_index_prepare(
             unsafe { (words::read("engine", engine, words::PREPARATION)?, Watch::read(watcher)?) };
         let (setup, _) = space.setup(&call, Demand::Paths(u64::MAX))?;
         let tell = |Progress { done, total, .. }: Progress| watch.tell(done, total);
-        let made = space.within(words::limits(watch)).prepare_with_progress(setup.engine, &tell)?;
+        let made = space.within(words::limits(&watch)).prepare_with_progress(setup.engine, &tell);
+        let made = made.map_err(|error| watch.failure(error))?;
         // SAFETY: as above.
         unsafe { IndexHandle::put(made.with_smoothing(setup.smoothing), index) }
     })
@@ -205,8 +206,9 @@ pub unsafe extern "C" fn mediant_index_finish(
         let index = Index::handles().get(index.id)?;
         // SAFETY: the caller promises it.
         let watch = unsafe { Watch::read(watcher) }?;
+        let made = index.within(words::limits(&watch)).finish().map_err(|error| watch.failure(error))?;
         // SAFETY: as above.
-        unsafe { IndexHandle::put(index.within(words::limits(watch)).finish()?, finished) }
+        unsafe { IndexHandle::put(made, finished) }
     })
 }
 

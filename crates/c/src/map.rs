@@ -6,7 +6,7 @@ use std::{ffi::c_char, sync::Arc};
 
 use library::{
     Ground, Map, Vertex,
-    grid::{Fit, Outside},
+    grid::{Fit, Grid, Outside},
 };
 
 use crate::{
@@ -91,6 +91,7 @@ pub unsafe extern "C" fn mediant_map_new(
     map: *mut MapHandle,
 ) -> Code {
     call(|| {
+        Grid::check_size(width.into(), height.into())?;
         if blocked.is_null() {
             // SAFETY: the caller promises it.
             return unsafe { MapHandle::put(Map::new(width, height)?, map) };
@@ -116,6 +117,8 @@ pub unsafe extern "C" fn mediant_map_from_bits(
     map: *mut MapHandle,
 ) -> Code {
     call(|| {
+        // Before the memory is trusted to have so many.
+        Grid::check_size(width.into(), height.into())?;
         let bytes = (u64::from(width) * u64::from(height)).div_ceil(8);
         let bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
         // SAFETY: the caller promises it.
@@ -209,6 +212,16 @@ pub unsafe extern "C" fn mediant_map_edit(
 ) -> Code {
     call(|| {
         let ground = Ground::handles().get(map.id)?;
+        // Before the memory is trusted to have so many.
+        if area.width.max(area.height) > Grid::MAX_SIDE {
+            let wrong = format!(
+                "{} × {} cells, and no map is longer than {}",
+                area.width,
+                area.height,
+                Grid::MAX_SIDE
+            );
+            return Err(Failure::argument("area", &wrong));
+        }
         // SAFETY: the caller promises it.
         let cells = unsafe { cells_of("blocked", (area.width, area.height), blocked) }?;
         let of = |x: u32, y: u32| {

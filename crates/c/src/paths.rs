@@ -4,10 +4,10 @@
 
 use std::ffi::c_char;
 
-use library::{Demand, Path, PlacementKind, Rules, Space, Vertex, errors::SpacingError};
+use library::{Demand, PlacementKind, Rules, Space, Vertex, errors::SpacingError};
 
 use crate::{
-    answer,
+    batch::{Batch, BatchHandle},
     code::Code,
     failure::{Failure, call},
     handles::Held,
@@ -19,40 +19,34 @@ use crate::{
     words,
 };
 
-/// A path of a single question: without an index. As `mediant_planner_path`, by the engine that is best for
-/// one path.
+/// A path of a single question, without an index, by the engine that is best for one path: as a batch with
+/// this path alone, so that however many points it has, it is found once.
 ///
 /// # Safety
-/// `watcher` is null or leads to one; `points` leads to memory for `room` points; `count` and `length` lead to
-/// memory for a number each.
+/// `watcher` is null or leads to one; `path` leads to a handle's memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mediant_space_path(
     space: SpaceHandle,
     start: Point,
     goal: Point,
     watcher: *const Watcher,
-    points: *mut Point,
-    room: usize,
-    count: *mut usize,
-    length: *mut f64,
+    path: *mut BatchHandle,
 ) -> Code {
     call(|| {
-        memory::check_place("length", length)?;
+        memory::check_place("path", path)?;
         let space = Space::handles().get(space.id)?;
         // SAFETY: the caller promises it.
         let watch = unsafe { Watch::read(watcher) }?;
-        let path = space.within(words::limits(watch)).path(start.inner("start")?, goal.inner("goal")?)?;
+        let found = space.within(words::limits(&watch)).path(start.inner("start")?, goal.inner("goal")?);
+        let found = found.map_err(|error| watch.failure(error))?;
         // SAFETY: as above.
-        unsafe {
-            answer::write(path.as_ref(), (points, room), count)?;
-            memory::put("length", length, path.as_ref().map_or(f64::INFINITY, Path::cost))
-        }
+        unsafe { BatchHandle::put(Batch::of_one(found.as_ref()), ("path", path)) }
     })
 }
 
 /// The path that keeps as far off obstacles as one can that is at most so much longer than the shortest: 0.2
-/// is a fifth. Writes its points and their number as `mediant_space_path`, and its least distance to
-/// obstacles, in cells; NaN where there is no path.
+/// is a fifth. As a batch with this path alone, as `mediant_space_path`; and its least distance to obstacles,
+/// in cells, NaN where there is no path.
 ///
 /// # Safety
 /// As for `mediant_space_path`; `radius` leads to memory for a number.
@@ -63,20 +57,21 @@ pub unsafe extern "C" fn mediant_space_widest_path(
     goal: Cell,
     surplus: f64,
     watcher: *const Watcher,
-    points: *mut Point,
-    room: usize,
-    count: *mut usize,
+    path: *mut BatchHandle,
     radius: *mut f64,
 ) -> Code {
     call(|| {
+        memory::check_place("path", path)?;
         memory::check_place("radius", radius)?;
         let space = Space::handles().get(space.id)?;
         // SAFETY: the caller promises it.
         let watch = unsafe { Watch::read(watcher) }?;
-        let widest = space.within(words::limits(watch)).widest_path(start, goal, surplus)?;
+        let widest = space.within(words::limits(&watch)).widest_path(start, goal, surplus);
+        let widest = widest.map_err(|error| watch.failure(error))?;
+        let found = Batch::of_one(widest.as_ref().map(|widest| &widest.path));
         // SAFETY: as above.
         unsafe {
-            answer::write(widest.as_ref().map(|widest| &widest.path), (points, room), count)?;
+            BatchHandle::put(found, ("path", path))?;
             memory::put("radius", radius, widest.as_ref().map_or(f64::NAN, |widest| widest.radius))
         }
     })
@@ -96,6 +91,7 @@ pub unsafe extern "C" fn mediant_space_engine(
     length: *mut usize,
 ) -> Code {
     call(|| {
+        memory::check_place("engine", engine)?;
         let choice = Space::handles().get(space.id)?.engine_for(Demand::Paths(paths))?;
         // SAFETY: the caller promises it.
         unsafe {

@@ -36,6 +36,8 @@ pub(crate) struct State {
     planner: Planner,
     /// The path of the last answer.
     path: Option<Path>,
+    /// That of the search that was begun.
+    watch: Watch,
 }
 
 impl Held for State {
@@ -58,8 +60,10 @@ fn with<R>(
 
 impl State {
     /// The answer as C has it; its path is kept.
-    fn told(&mut self, answer: InnerAnswer, guarantee: Guarantee) -> Answer {
-        let told = Answer::new(&answer, (guarantee, self.planner.index().setup().rules()));
+    fn told(&mut self, answer: InnerAnswer, guarantee: Guarantee, watch: &Watch) -> Answer {
+        let stopped_by = watch.limit_met(answer.stopped_by()).into();
+        let rules = self.planner.index().setup().rules();
+        let told = Answer { stopped_by, ..Answer::new(&answer, (guarantee, rules)) };
         self.path = match answer {
             InnerAnswer::Stopped(stopped) => Some(stopped.best),
             answer => answer.into_path(),
@@ -77,7 +81,7 @@ pub unsafe extern "C" fn mediant_planner_new(index: IndexHandle, planner: *mut P
     call(|| {
         memory::check_place("planner", planner)?;
         let inner = Index::handles().get(index.id)?.try_planner()?;
-        let id = State::handles().keep(State { planner: inner, path: None })?;
+        let id = State::handles().keep(State { planner: inner, path: None, watch: Watch::default() })?;
         // SAFETY: the caller promises it.
         unsafe { memory::put("planner", planner, PlannerHandle { id }) }
     })
@@ -107,8 +111,9 @@ pub unsafe extern "C" fn mediant_planner_path(
 ) -> Code {
     call(|| {
         let ends = PointEnds::new(start.inner("start")?, goal.inner("goal")?);
+        answer::check_places(points, room, count)?;
         memory::check_place("length", length)?;
-        with(planner, |State { planner, path }| {
+        with(planner, |State { planner, path, .. }| {
             *path = None;
             *path = planner.find(ends)?.into_path();
             // SAFETY: the caller promises it.
@@ -133,6 +138,7 @@ pub unsafe extern "C" fn mediant_planner_points(
     count: *mut usize,
 ) -> Code {
     call(|| {
+        answer::check_places(points, room, count)?;
         // SAFETY: the caller promises it.
         with(planner, |state| unsafe { answer::write(state.path.as_ref(), (points, room), count) })
     })
@@ -146,14 +152,14 @@ unsafe fn query(
     (starts, start_count): (*const Point, usize),
     (goals, goal_count): (*const Point, usize),
     wishes: *const c_char,
-    watcher: *const Watcher,
+    watch: &Watch,
 ) -> Result<Query, Failure> {
     // SAFETY: the caller promises it.
     unsafe {
         let starts = points::read("starts", starts, start_count)?;
         let goals = points::read("goals", goals, goal_count)?;
         let call = words::read("wishes", wishes, words::WISHES)?;
-        Ok(words::query(&call, &starts, &goals, Watch::read(watcher)?))
+        Ok(words::query(&call, &starts, &goals, watch))
     }
 }
 
@@ -178,11 +184,14 @@ pub unsafe extern "C" fn mediant_planner_find(
     call(|| {
         memory::check_place("answer", answer)?;
         // SAFETY: the caller promises it.
-        let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, watcher) }?;
+        let watch = unsafe { Watch::read(watcher) }?;
+        // SAFETY: as above.
+        let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, &watch) }?;
         let told = with(planner, |state| {
             state.path = None;
-            let (found, guarantee) = (state.planner.find(query)?, state.planner.guarantee());
-            Ok(state.told(found, guarantee))
+            let found = state.planner.find(query).map_err(|error| watch.failure(error))?;
+            let guarantee = state.planner.guarantee();
+            Ok(state.told(found, guarantee, &watch))
         })?;
         // SAFETY: as above.
         unsafe { memory::put("answer", answer, told) }
@@ -226,10 +235,14 @@ pub unsafe extern "C" fn mediant_planner_begin(
 ) -> Code {
     call(|| {
         // SAFETY: the caller promises it.
-        let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, watcher) }?;
+        let watch = unsafe { Watch::read(watcher) }?;
+        // SAFETY: as above.
+        let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, &watch) }?;
         with(planner, |state| {
             state.path = None;
-            Ok(state.planner.begin(query)?)
+            state.planner.begin(query).map_err(|error| watch.failure(error))?;
+            state.watch = watch;
+            Ok(())
         })
     })
 }
@@ -250,9 +263,10 @@ pub unsafe extern "C" fn mediant_planner_step(
         memory::check_place("done", done)?;
         memory::check_place("answer", answer)?;
         let told = with(planner, |state| {
-            let found = state.planner.step(expansions)?;
+            let watch = state.watch.clone();
+            let found = state.planner.step(expansions).map_err(|error| watch.failure(error))?;
             let guarantee = state.planner.guarantee();
-            Ok(found.map(|found| state.told(found, guarantee)))
+            Ok(found.map(|found| state.told(found, guarantee, &watch)))
         })?;
         // SAFETY: the caller promises it.
         unsafe {
@@ -300,6 +314,7 @@ pub unsafe extern "C" fn mediant_planner_best(
     count: *mut usize,
 ) -> Code {
     call(|| {
+        answer::check_places(points, room, count)?;
         let best = with(planner, |state| Ok(state.planner.best()))?;
         // SAFETY: the caller promises it.
         unsafe { answer::write(best.as_ref(), (points, room), count) }
@@ -320,6 +335,7 @@ pub unsafe extern "C" fn mediant_planner_path_to(
 ) -> Code {
     call(|| {
         let at = at.inner("at")?;
+        answer::check_places(points, room, count)?;
         let path = with(planner, |state| Ok(state.planner.path_to(at)))?;
         // SAFETY: the caller promises it.
         unsafe { answer::write(path.as_ref(), (points, room), count) }
@@ -355,11 +371,11 @@ pub unsafe extern "C" fn mediant_planner_searched_by(
     })
 }
 
-/// The lengths of the paths to each of many goals, in their order, as many as there is room for; infinity
-/// where none leads.
+/// The lengths of the paths to each of many goals, in their order, as many as there is room for, and how many
+/// there are; infinity where none leads.
 ///
 /// # Safety
-/// `lengths` leads to memory for `room` numbers.
+/// `lengths` leads to memory for `room` numbers; `count` leads to memory for a number.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mediant_planner_distances(
     planner: PlannerHandle,
@@ -367,12 +383,18 @@ pub unsafe extern "C" fn mediant_planner_distances(
     goals: GoalsHandle,
     lengths: *mut f64,
     room: usize,
+    count: *mut usize,
 ) -> Code {
     call(|| {
+        memory::check_place("count", count)?;
+        memory::check_room("lengths", lengths, room)?;
         let (start, goals) = (start.inner("start")?, Goals::handles().get(goals.id)?);
         let found = with(planner, |state| Ok(state.planner.distances(start, &goals)?))?;
         // SAFETY: the caller promises it.
-        unsafe { memory::fill("lengths", lengths, room, found) }
+        unsafe {
+            memory::put("count", count, found.len())?;
+            memory::fill("lengths", lengths, room, found)
+        }
     })
 }
 
@@ -437,8 +459,10 @@ pub unsafe extern "C" fn mediant_planner_find_except(
     call(|| {
         memory::check_place("answer", answer)?;
         // SAFETY: the caller promises it.
+        let watch = unsafe { Watch::read(watcher) }?;
+        // SAFETY: as above.
         let (query, except) = unsafe {
-            let query = query((starts, start_count), (goals, goal_count), wishes, watcher)?;
+            let query = query((starts, start_count), (goals, goal_count), wishes, &watch)?;
             let given = memory::value("exceptions", exceptions)?;
             let blocked = memory::array("blocked", given.blocked, given.blocked_count)?;
             let free = memory::array("free", given.free, given.free_count)?;
@@ -454,7 +478,7 @@ pub unsafe extern "C" fn mediant_planner_find_except(
                 }
                 found => found.map(|found| (found.answer, found.guarantee))?,
             };
-            Ok(state.told(found, guarantee))
+            Ok(state.told(found, guarantee, &watch))
         })?;
         // SAFETY: as above.
         unsafe { memory::put("answer", answer, told) }

@@ -51,7 +51,12 @@ fn unknown(name: &str, key: &str, takes: Takes) -> Failure {
 }
 
 /// The query of a call. Its time begins now.
-pub(crate) fn query(call: &Call, starts: &[library::Point], goals: &[library::Point], watch: Watch) -> Query {
+pub(crate) fn query(
+    call: &Call,
+    starts: &[library::Point],
+    goals: &[library::Point],
+    watch: &Watch,
+) -> Query {
     let mut limits = watch.limit(call.wishes().limits());
     if let Some(milliseconds) = call.wishes().timeout {
         // More than a clock can count is no limit.
@@ -63,6 +68,6 @@ pub(crate) fn query(call: &Call, starts: &[library::Point], goals: &[library::Po
 }
 
 /// The limits of what is no search.
-pub(crate) fn limits(watch: Watch) -> Limits {
+pub(crate) fn limits(watch: &Watch) -> Limits {
     watch.limit(Limits::new())
 }

@@ -70,6 +70,11 @@ static void test_maps(void) {
   OK(mediant_map_free(map));
 
   FAILS(mediant_map_new(0, 5, NULL, &map), MEDIANT_CODE_MAP_SIZE, "0");
+  // Before bytes are read that no map has.
+  FAILS(mediant_map_new(32769, 1, cells, &map), MEDIANT_CODE_MAP_SIZE, "32769 columns");
+  FAILS(mediant_map_new(UINT32_MAX, UINT32_MAX, cells, &map), MEDIANT_CODE_MAP_SIZE, "4294967295");
+  FAILS(mediant_map_from_bits(1, UINT32_MAX, bits, &map), MEDIANT_CODE_MAP_SIZE, "rows");
+  FAILS(mediant_map_from_bits(0, 1, bits, &map), MEDIANT_CODE_MAP_SIZE, "0 columns");
   FAILS(mediant_map_parse("..\n...\n", &map), MEDIANT_CODE_MAP_RAGGED, "row");
   FAILS(mediant_map_parse("..\n.x\n", &map), MEDIANT_CODE_MAP_TILE, "x");
   FAILS(mediant_map_parse(NULL, &map), MEDIANT_CODE_MAP_SIZE, "");
@@ -115,6 +120,8 @@ static void test_made_maps(void) {
   IS(memcmp(cells, "\0\0\0\0\0\0\0\0\0\0\0\1", 12) == 0);
   OK(mediant_map_free(map));
   FAILS(mediant_map_edit(empty, far, walls, &map), MEDIANT_CODE_EDIT_OUTSIDE, "outside");
+  mediant_area huge = {0, 0, 2, 32769};
+  FAILS(mediant_map_edit(empty, huge, walls, &map), MEDIANT_CODE_ARGUMENT, "area: 2 × 32769 cells");
 
   mediant_cell where[] = {{0, 0}, {3, 2}, {0, 0}};
   uint8_t what[] = {1, 9, 0};
@@ -173,23 +180,33 @@ static void test_spaces(void) {
   OK(mediant_space_check(corners, good, 3));
   FAILS(mediant_space_check(corners, bad, 2), MEDIANT_CODE_BROKEN_PATH, "(");
 
-  mediant_point points[8];
   size_t count = 0;
-  double length = 0, radius = 0;
-  OK(mediant_space_path(corners, at(0, 0), at(6, 4), NULL, points, COUNT(points), &count, &length));
-  IS(count == 3 && same(points[1], at(5, 1)) && same(points[2], at(6, 4)));
-  NEAR(length, sqrt(26) + sqrt(10));
-  OK(mediant_space_path(space, at(0, 0), at(2, 2), NULL, points, COUNT(points), &count, &length));
-  IS(count == 0 && isinf(length));
-  FAILS(mediant_space_path(space, at(1, 1), at(0, 0), NULL, points, COUNT(points), &count, &length),
-        MEDIANT_CODE_START_BLOCKED, "(1, 1)");
+  double radius = 0;
+  mediant_batch path;
+  mediant_paths paths;
+  OK(mediant_space_path(corners, at(0, 0), at(6, 4), NULL, &path));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.count == 1 && paths.firsts[1] == 3 && paths.codes[0] == MEDIANT_CODE_OK);
+  IS(same(paths.points[1], at(5, 1)) && same(paths.points[2], at(6, 4)));
+  NEAR(paths.lengths[0], sqrt(26) + sqrt(10));
+  OK(mediant_batch_free(path));
+  OK(mediant_space_path(space, at(0, 0), at(2, 2), NULL, &path));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.count == 1 && paths.firsts[1] == 0 && isinf(paths.lengths[0]));
+  OK(mediant_batch_free(path));
+  FAILS(mediant_space_path(space, at(1, 1), at(0, 0), NULL, &path), MEDIANT_CODE_START_BLOCKED, "(1, 1)");
 
   mediant_cell start = {0, 0}, goal = {5, 4}, cut = {2, 2};
-  OK(mediant_space_widest_path(space, start, goal, 0.2, NULL, points, COUNT(points), &count, &radius));
-  IS(count >= 3 && same(points[0], at(0, 0)) && same(points[count - 1], at(5, 4)));
+  OK(mediant_space_widest_path(space, start, goal, 0.2, NULL, &path, &radius));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.firsts[1] >= 3 && same(paths.points[0], at(0, 0)));
+  IS(same(paths.points[paths.firsts[1] - 1], at(5, 4)));
   NEAR(radius, 0.5);
-  OK(mediant_space_widest_path(space, start, cut, 0.2, NULL, points, COUNT(points), &count, &radius));
-  IS(count == 0 && isnan(radius));
+  OK(mediant_batch_free(path));
+  OK(mediant_space_widest_path(space, start, cut, 0.2, NULL, &path, &radius));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.firsts[1] == 0 && isinf(paths.lengths[0]) && isnan(radius));
+  OK(mediant_batch_free(path));
 
   const char *engine = NULL;
   char why[400];
@@ -293,7 +310,7 @@ static void test_fields(void) {
   IS(isinf(distance));
   OK(mediant_field_free(field));
   mediant_point wall = {1, 1};
-  FAILS(mediant_field_new(space, &wall, 1, 3, NULL, &field), MEDIANT_CODE_START_BLOCKED, "(1, 1)");
+  FAILS(mediant_field_new(space, &wall, 1, 3, NULL, &field), MEDIANT_CODE_START_BLOCKED, "the source (1, 1)");
   FAILS(mediant_field_new(space, &source, 1, NAN, NULL, &field), MEDIANT_CODE_NUMBER, "limit");
   OK(mediant_space_free(changed));
   OK(mediant_space_free(space));
@@ -319,6 +336,7 @@ int main(int arguments, char **argument) {
   test_search();
   test_costs();
   test_points();
+  test_points_anywhere();
   test_goals();
   test_batch();
   test_watcher();

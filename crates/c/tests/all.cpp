@@ -194,6 +194,35 @@ void test_indexes(const std::string &folder) {
   IS(!planner.nearest({0, 0}, mediant::Goals(index, {})));
 }
 
+// Ends anywhere, at any angle between corners and between centers.
+void test_points() {
+  auto map = mediant::Map::parse(RING);
+  const double expected = std::hypot(4.5, 0.75) + std::sqrt(10);
+  for (const char *motion : {"k=any gap=closed", "placement=center k=any"}) {
+    double by = motion[0] == 'k' ? 0 : -0.5;
+    point start{by + 0.5, by + 0.25}, goal{by + 6, by + 4}, corner{by + 5, by + 1};
+    mediant::Space space(map, motion);
+    NEAR(space.path(start, goal)->length, expected);
+    IS(space.is_free(start) && space.sees(start, corner) && !space.sees(start, goal));
+    for (const char *engine : {"engine=anya", "engine=subgoal", "engine=subgoal levels=all"}) {
+      auto index = mediant::Index::prepare(space, engine);
+      mediant::Planner planner(index);
+      auto path = planner.path(start, goal);
+      IS(path && path->points.size() == 3 && same(path->points[1], corner));
+      NEAR(path->length, expected);
+      NEAR(planner.find(start, goal).distance, expected);
+      mediant::Goals goals(index, {goal, corner});
+      NEAR(planner.distances(start, goals)[0], expected);
+      IS(planner.nearest(start, goals)->goal == 1);
+      NEAR(index.table({start}, {goal})[0], expected);
+      NEAR(index.paths({{start, goal}}).length(0), expected);
+    }
+    mediant::Field field(space, {start});
+    NEAR(field.get(goal), expected);
+    IS(same(*field.nearest_source(goal), start) && same(field.path_from(goal).back(), start));
+  }
+}
+
 void test_batches() {
   auto map = mediant::Map::parse(RING);
   auto index = mediant::Index::prepare(mediant::Space(map, "k=any gap=closed"));
@@ -292,11 +321,12 @@ void test_watchers() {
   auto index = mediant::Index::prepare(space, "engine=subgoal", counts);
   IS(told > 0);
   mediant::watcher stops{[] { return true; }, nullptr};
-  THROWS(mediant::Index::prepare(space, "engine=subgoal", stops), MEDIANT_CODE_STOPPED);
+  THROWS(mediant::Index::prepare(space, "engine=subgoal", stops), MEDIANT_CODE_CANCELLED);
 
   auto search = mediant::Index::prepare(space, "engine=dijkstra");
   mediant::Planner planner(search);
-  IS(planner.find({0, 0}, {99, 99}, {}, stops).status == MEDIANT_STATUS_STOPPED);
+  auto stopped = planner.find({0, 0}, {99, 99}, {}, stops);
+  IS(stopped.status == MEDIANT_STATUS_STOPPED && stopped.stopped_by == MEDIANT_LIMIT_CANCELLED);
   std::size_t objects = mediant::objects();
   throws_own([&](const mediant::watcher &watch) { mediant::Index::prepare(space, "engine=subgoal", watch); });
   throws_own([&](const mediant::watcher &watch) { planner.find({0, 0}, {99, 99}, {}, watch); });
@@ -367,6 +397,7 @@ int main(int arguments, char **argument) {
   test_spaces();
   test_fields();
   test_indexes(folder);
+  test_points();
   test_batches();
   test_planners();
   test_watchers();

@@ -92,6 +92,7 @@ void test_exceptions(void);
 void test_search(void);
 void test_costs(void);
 void test_points(void);
+void test_points_anywhere(void);
 void test_goals(void);
 void test_batch(void);
 void test_watcher(void);

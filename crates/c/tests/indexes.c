@@ -28,7 +28,7 @@ void test_index(const char *folder) {
   OK(mediant_index_is_finished(made.index, &finished));
   IS(finished == 1);
   FAILS(mediant_planner_nearest(made.planner, at(0, 0), (mediant_goals){0}, &length, &bound),
-        MEDIANT_CODE_HANDLE, "the goals is null");
+        MEDIANT_CODE_HANDLE, "the goals are null");
 
   char path[4096];
   snprintf(path, sizeof path, "%s/ring.index", folder);

@@ -51,7 +51,7 @@ static void test_wrong_handles(struct made made) {
   }
   fails_handle(mediant_map_for_square((mediant_map){0}, 2, &map), "the map is null");
   fails_handle(mediant_map_for_square((mediant_map){of_index}, 2, &map),
-               "the map is of another type, or was never made");
+               "the map is of another type, or made up");
   fails_handle(mediant_map_for_square((mediant_map){of_map | 0xffffff}, 2, &map), "the map was never made");
 }
 

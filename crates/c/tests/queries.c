@@ -32,7 +32,7 @@ void test_planner(void) {
   mediant_answer answer;
   mediant_point starts[] = {{5, 4}, {0, 0}}, goals[] = {{2, 2}, {0, 4}};
   OK(mediant_planner_find(planner, starts, 2, goals, 2, NULL, NULL, &answer));
-  IS(answer.status == MEDIANT_STATUS_FOUND && answer.stopped_by == MEDIANT_LIMIT_NONE && answer.points == 2);
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.stopped_by == MEDIANT_LIMIT_NONE && answer.point_count == 2);
   NEAR(answer.distance, 4);
   NEAR(answer.length, 4);
   NEAR(answer.lower_bound, 4);
@@ -51,13 +51,13 @@ void test_wishes(void) {
   mediant_answer answer;
   size_t count = 0;
   OK(mediant_planner_find(planner, &start, 1, &enclosed, 1, NULL, NULL, &answer));
-  IS(answer.status == MEDIANT_STATUS_UNREACHABLE && isinf(answer.distance) && answer.points == 0);
+  IS(answer.status == MEDIANT_STATUS_UNREACHABLE && isinf(answer.distance) && answer.point_count == 0);
   OK(mediant_planner_find(planner, &start, 1, &enclosed, 1, "nearest", NULL, &answer));
-  IS(answer.status == MEDIANT_STATUS_NEAREST && answer.points >= 2);
+  IS(answer.status == MEDIANT_STATUS_NEAREST && answer.point_count >= 2);
   OK(mediant_planner_points(planner, points, COUNT(points), &count));
   NEAR(hypot(points[count - 1].x - 2, points[count - 1].y - 2), 2);
   OK(mediant_planner_find(planner, &wall, 1, &goal, 1, "snap", NULL, &answer));
-  IS(answer.status == MEDIANT_STATUS_FOUND && answer.points >= 2);
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.point_count >= 2);
   OK(mediant_planner_find(planner, &start, 1, &goal, 1, "tolerance=2", NULL, &answer));
   NEAR(answer.distance, 7);
   OK(mediant_planner_find(planner, &start, 1, &goal, 1, "max_cost=9", NULL, &answer));
@@ -98,6 +98,9 @@ void test_exceptions(void) {
   IS(count == 2 && same(points[0], wall));
   OK(mediant_planner_searched_by(planner, &engine));
   IS(strlen(engine) > 0);
+  // No limit stops it before it is seen that it has no end.
+  FAILS(mediant_planner_find_except(planner, NULL, 0, &beside, 1, &opened, "timeout=0", NULL, &answer),
+        MEDIANT_CODE_NO_END, "start");
   drop(made);
 }
 
@@ -136,7 +139,7 @@ void test_search(void) {
   IS(steps > 2 && answer.status == MEDIANT_STATUS_FOUND);
   NEAR(answer.distance, 9);
   OK(mediant_planner_points(planner, points, COUNT(points), &count));
-  IS(count == answer.points && same(points[count - 1], goal));
+  IS(count == answer.point_count && same(points[count - 1], goal));
 
   // A search that is begun anew, with a limit.
   OK(mediant_planner_begin(planner, &start, 1, &goal, 1, "max_expansions=3", NULL));
@@ -173,13 +176,15 @@ void test_costs(void) {
   OK(mediant_map_edit_costs(priced, &corner, &none, 1, &edited));
   OK(mediant_map_cells(edited, cells, sizeof cells));
   IS(cells[0] == 1 && cells[1] == 0);
-  FAILS(mediant_map_edit_cells(edited, &corner, &open, 1, &freed), MEDIANT_CODE_COST, "(0, 0)");
+  FAILS(mediant_map_edit_cells(edited, &corner, &open, 1, &freed), MEDIANT_CODE_COST,
+        "cell (0, 0) is freed, and has no cost: free it by mediant_map_edit_costs");
   OK(mediant_map_edit_costs(edited, &corner, &seven, 1, &freed));
   OK(mediant_map_cells(freed, cells, sizeof cells));
   IS(cells[0] == 0);
   OK(mediant_map_free(freed));
   OK(mediant_map_free(edited));
-  IS(mediant_map_edit_costs(map, &corner, &seven, 1, &edited) != MEDIANT_CODE_OK);
+  FAILS(mediant_map_edit_costs(map, &corner, &seven, 1, &edited), MEDIANT_CODE_COST,
+        "mediant_map_costs");
   // Around the middle, by its corners: 2√2 cells, at 2 each.
   mediant_point start = {0, 1}, goal = {2, 1}, points[4];
   size_t count = 0;
@@ -217,12 +222,120 @@ void test_points(void) {
   FAILS(mediant_planner_path(made.planner, at(0, 0), at(0, -INFINITY), points, COUNT(points), &count, &length),
         MEDIANT_CODE_GOAL_OUTSIDE, "goal");
   drop(made);
+}
 
-  // Between centers.
-  made = make(RING, "k=any placement=center", NULL);
-  OK(mediant_planner_path(made.planner, at(0, 0), at(0, 4), points, COUNT(points), &count, &length));
-  IS(count == 2 && length == 4);
+// Ends anywhere at any angle, by an engine: whatever takes a point takes them. `by` is where the corner of the
+// map is, in the coordinates of the placement.
+static void ends_anywhere(const char *motion, const char *engine, double by) {
+  struct made made = make(RING, motion, engine);
+  mediant_planner planner = made.planner;
+  mediant_point start = at(by + 0.5, by + 0.25), goal = at(by + 6, by + 4), corner = at(by + 5, by + 1);
+  mediant_point beside = at(by + 0.5, by + 3.25), enclosed = at(by + 2.5, by + 2.5), points[8];
+  double length = 0, expected = hypot(4.5, 0.75) + sqrt(10), table[3];
+  size_t count = 0, nearest = 9;
+  OK(mediant_planner_path(planner, start, goal, points, COUNT(points), &count, &length));
+  IS(count == 3 && same(points[0], start) && same(points[1], corner) && same(points[2], goal));
+  NEAR(length, expected);
+  OK(mediant_space_check(made.space, points, 3));
+  OK(mediant_planner_distance(planner, goal, start, &length));
+  NEAR(length, expected);
+  OK(mediant_planner_distance(planner, start, enclosed, &length));
+  IS(isinf(length));
+
+  mediant_answer answer;
+  mediant_point goals[] = {goal, beside, enclosed};
+  OK(mediant_planner_find(planner, &start, 1, goals, 3, NULL, NULL, &answer));
+  NEAR(answer.distance, 3);
+  // An opening of the ring.
+  mediant_cell door = {1, 2};
+  mediant_exceptions opened = {NULL, 0, &door, 1, 0};
+  OK(mediant_planner_find_except(planner, &beside, 1, &enclosed, 1, &opened, NULL, NULL, &answer));
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.distance < 2.5);
+  int32_t done = 0;
+  OK(mediant_planner_begin(planner, &start, 1, &goal, 1, NULL, NULL));
+  OK(mediant_planner_step(planner, UINT64_MAX, &done, &answer));
+  IS(done == 1);
+  NEAR(answer.distance, expected);
+
+  mediant_goals prepared;
+  OK(mediant_goals_new(made.index, goals, 3, &prepared));
+  OK(mediant_planner_distances(planner, start, prepared, table, 3, &count));
+  IS(count == 3 && isinf(table[2]));
+  NEAR(table[0], expected);
+  NEAR(table[1], 3);
+  OK(mediant_planner_nearest(planner, start, prepared, &nearest, &length));
+  IS(nearest == 1);
+  OK(mediant_goals_free(prepared));
+  OK(mediant_index_table(made.index, &start, 1, goals, 3, NULL, table));
+  NEAR(table[0], expected);
+  IS(isinf(table[2]));
+  mediant_ends ends = {start, goal};
+  mediant_batch batch;
+  mediant_paths paths;
+  OK(mediant_index_paths(made.index, &ends, 1, 1, NULL, &batch));
+  OK(mediant_batch_paths(batch, &paths));
+  NEAR(paths.lengths[0], expected);
+  IS(paths.firsts[1] == 3 && same(paths.points[1], corner));
+  OK(mediant_batch_free(batch));
   drop(made);
+}
+
+// The same without an engine: questions of the space, and fields.
+static void points_of_space(const char *motion, double by) {
+  struct made made = make(RING, motion, NULL);
+  mediant_point start = at(by + 0.5, by + 0.25), goal = at(by + 6, by + 4), corner = at(by + 5, by + 1);
+  mediant_point beside = at(by + 0.5, by + 3.25), points[4], next;
+  int32_t is = -1;
+  OK(mediant_space_is_free(made.space, start, &is));
+  IS(is == 1);
+  OK(mediant_space_connected(made.space, start, at(by + 2.5, by + 2.5), &is));
+  IS(is == 0);
+  OK(mediant_space_sees(made.space, start, corner, &is));
+  IS(is == 1);
+  OK(mediant_space_sees(made.space, start, goal, &is));
+  IS(is == 0);
+  mediant_batch path;
+  mediant_paths paths;
+  OK(mediant_space_path(made.space, start, goal, NULL, &path));
+  OK(mediant_batch_paths(path, &paths));
+  NEAR(paths.lengths[0], hypot(4.5, 0.75) + sqrt(10));
+  OK(mediant_batch_free(path));
+
+  mediant_field field;
+  double length = 0;
+  size_t count = 0;
+  mediant_point sources[] = {start, beside};
+  OK(mediant_field_new(made.space, sources, 2, INFINITY, NULL, &field));
+  OK(mediant_field_get(field, at(by + 0.75, by + 0.25), &length));
+  NEAR(length, 0.25);
+  OK(mediant_field_get(field, beside, &length));
+  IS(length == 0);
+  OK(mediant_field_nearest_source(field, at(by + 0.5, by + 3), &next, &is));
+  IS(is == 1 && same(next, beside));
+  OK(mediant_field_path_from(field, at(by + 5.5, by + 0.5), points, COUNT(points), &count));
+  IS(count == 2 && same(points[1], start));
+  OK(mediant_field_direction(field, at(by + 4.5, by + 0.25), &next));
+  NEAR(next.x, -1);
+  OK(mediant_field_free(field));
+  mediant_point wall = at(by + 1.5, by + 1.5);
+  FAILS(mediant_field_new(made.space, &wall, 1, INFINITY, NULL, &field), MEDIANT_CODE_START_BLOCKED,
+        "the source");
+  drop(made);
+}
+
+void test_points_anywhere(void) {
+  const char *engines[] = {NULL, "engine=anya", "engine=subgoal", "engine=subgoal levels=labels",
+                           "engine=subgoal levels=contracted", "engine=subgoal levels=all",
+                           "engine=subgoal levels=1"};
+  for (size_t engine = 0; engine < COUNT(engines); engine++) {
+    ends_anywhere("k=any gap=closed", engines[engine], 0);
+    ends_anywhere("k=any gap=open", engines[engine], 0);
+    ends_anywhere("placement=center k=any", engines[engine], -0.5);
+    ends_anywhere("placement=center k=any gap=open", engines[engine], -0.5);
+  }
+  points_of_space("k=any gap=closed", 0);
+  points_of_space("k=any gap=open", 0);
+  points_of_space("placement=center k=any", -0.5);
 }
 
 void test_goals(void) {
@@ -231,7 +344,11 @@ void test_goals(void) {
   mediant_goals goals, none;
   OK(mediant_goals_new(made.index, where, 3, &goals));
   double lengths[3], length = 0;
-  OK(mediant_planner_distances(made.planner, at(0, 0), goals, lengths, 3));
+  size_t count = 0;
+  OK(mediant_planner_distances(made.planner, at(0, 0), goals, NULL, 0, &count));
+  IS(count == 3);
+  OK(mediant_planner_distances(made.planner, at(0, 0), goals, lengths, 3, &count));
+  IS(count == 3);
   NEAR(lengths[0], 4);
   NEAR(lengths[1], 9);
   IS(isinf(lengths[2]));
@@ -275,6 +392,12 @@ static void progress(void *data, uint64_t done, uint64_t total) {
   watched->told++;
   watched->done = done;
   watched->total = total;
+}
+
+static int32_t stops_once(void *data) {
+  struct watched *watched = data;
+  watched->asked++;
+  return watched->asked <= 2;
 }
 
 void test_batch(void) {
@@ -350,37 +473,51 @@ void test_watcher(void) {
   OK(mediant_index_prepare(space, "engine=landmarks", &teller, &index));
   OK(mediant_index_free(index));
   seen.stop_at = 0;
-  FAILS(mediant_index_prepare(space, "engine=landmarks", &watcher, &index), MEDIANT_CODE_STOPPED, "while");
+  FAILS(mediant_index_prepare(space, "engine=landmarks", &watcher, &index), MEDIANT_CODE_CANCELLED, "stopped by its watcher while");
 
   OK(mediant_index_prepare(space, "engine=dijkstra", NULL, &index));
   OK(mediant_planner_new(index, &planner));
-  mediant_point start = {0, 0}, goal = {SIDE - 1, SIDE - 1}, points[4];
+  mediant_point start = {0, 0}, goal = {SIDE - 1, SIDE - 1};
   mediant_answer answer;
-  size_t count = 0;
-  double length = 0;
   OK(mediant_planner_find(planner, &start, 1, &goal, 1, NULL, &watcher, &answer));
+  IS(answer.status == MEDIANT_STATUS_STOPPED && answer.stopped_by == MEDIANT_LIMIT_CANCELLED);
+  OK(mediant_planner_find(planner, &start, 1, &goal, 1, "timeout=0", &watcher, &answer));
   IS(answer.status == MEDIANT_STATUS_STOPPED && answer.stopped_by == MEDIANT_LIMIT_TIMEOUT);
+  mediant_exceptions none = {NULL, 0, NULL, 0, 0};
+  OK(mediant_planner_find_except(planner, &start, 1, &goal, 1, &none, NULL, &watcher, &answer));
+  IS(answer.status == MEDIANT_STATUS_STOPPED && answer.stopped_by == MEDIANT_LIMIT_CANCELLED);
   OK(mediant_planner_begin(planner, &start, 1, &goal, 1, NULL, &watcher));
   int32_t done = 0;
   OK(mediant_planner_step(planner, UINT64_MAX, &done, &answer));
-  IS(done == 1 && answer.status == MEDIANT_STATUS_STOPPED);
-  FAILS(mediant_space_path(space, start, goal, &watcher, points, COUNT(points), &count, &length),
-        MEDIANT_CODE_STOPPED, "while");
+  IS(done == 1 && answer.status == MEDIANT_STATUS_STOPPED && answer.stopped_by == MEDIANT_LIMIT_CANCELLED);
+  mediant_batch found;
+  double radius = 0;
+  mediant_cell from = {0, 0}, to = {SIDE - 1, SIDE - 1};
+  FAILS(mediant_space_path(space, start, goal, &watcher, &found), MEDIANT_CODE_CANCELLED,
+        "stopped by its watcher while");
+  FAILS(mediant_space_widest_path(space, from, to, 0.1, &watcher, &found, &radius), MEDIANT_CODE_CANCELLED,
+        "stopped by its watcher while");
   mediant_field field;
-  FAILS(mediant_field_new(space, &start, 1, INFINITY, &watcher, &field), MEDIANT_CODE_STOPPED, "while");
+  FAILS(mediant_field_new(space, &start, 1, INFINITY, &watcher, &field), MEDIANT_CODE_CANCELLED, "stopped by its watcher while");
   // Fewer queries than a thread takes at a time: each is long enough to ask.
   static mediant_ends ends[100];
   for (size_t query = 0; query < COUNT(ends); query++) {
     ends[query].goal = goal;
   }
   mediant_batch batch;
-  FAILS(mediant_index_paths(index, ends, 1, 0, &watcher, &batch), MEDIANT_CODE_STOPPED, "while");
+  // One that has said 'stop' is not asked again, whatever it would say.
+  mediant_watcher once = {stops_once, NULL, &seen};
+  seen.asked = 0;
+  FAILS(mediant_index_paths(index, ends, 1, 1, &once, &batch), MEDIANT_CODE_CANCELLED, "watcher");
+  FAILS(mediant_index_prepare(space, "engine=subgoal", &once, &index), MEDIANT_CODE_CANCELLED, "watcher");
+  IS(seen.asked == 2);
+  FAILS(mediant_index_paths(index, ends, 1, 0, &watcher, &batch), MEDIANT_CODE_CANCELLED, "stopped by its watcher while");
   struct watched late = {0, 50, 0, 0, 0};
   mediant_watcher stops_late = {stop, NULL, &late};
-  FAILS(mediant_index_paths(index, ends, COUNT(ends), 1, &stops_late, &batch), MEDIANT_CODE_STOPPED, "while");
+  FAILS(mediant_index_paths(index, ends, COUNT(ends), 1, &stops_late, &batch), MEDIANT_CODE_CANCELLED, "stopped by its watcher while");
   IS(late.asked == 50);
   double table[1];
-  FAILS(mediant_index_table(index, &start, 1, &goal, 1, &watcher, table), MEDIANT_CODE_STOPPED, "while");
+  FAILS(mediant_index_table(index, &start, 1, &goal, 1, &watcher, table), MEDIANT_CODE_CANCELLED, "stopped by its watcher while");
   struct made made = {map, space, index, planner};
   drop(made);
 }

@@ -39,7 +39,7 @@ static void ask(const struct shared *shared, mediant_planner planner, size_t num
   NEAR(length, sqrt(26) + sqrt(10));
   OK(mediant_planner_path(planner, at((double)number / 16, 0), at(0, 1), points, COUNT(points), &count, &length));
   NEAR(length, hypot((double)number / 16, 1));
-  OK(mediant_planner_distances(planner, at(0, 0), shared->goals, lengths, 2));
+  OK(mediant_planner_distances(planner, at(0, 0), shared->goals, lengths, 2, &count));
   NEAR(lengths[0], 5);
   OK(mediant_planner_nearest(planner, at(6, 4), shared->goals, &goal, &length));
   IS(goal == 1);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mediant_grid::{PlacementKind, Vertex};
-use mediant_search::{Answer, Guarantee, Limits, Query};
+use mediant_search::{Answer, End, Guarantee, Limits, Query, QueryError};
 
 use crate::{
     change::Change, choice::Choice, engine::Engine, error::Error, index::Index, map::Map, planner::Planner,
@@ -157,6 +157,12 @@ impl Planner {
     ) -> Result<ExceptedAnswer, Error> {
         self.index().space().check_is_without_costs(SetupError::EXCEPTIONS_ON_COSTS)?;
         let query = query.into();
+        // Before its limits can stop what is prepared: no limit makes it a query.
+        for (ends, end) in [(query.starts(), End::Start), (query.goals(), End::Goal)] {
+            if ends.is_empty() {
+                return Err(QueryError::NoEnd { end }.into());
+            }
+        }
         let Some(change) = exceptions.change(self.index().space(), &query)? else {
             let answer = self.find(query)?;
             return Ok(ExceptedAnswer {

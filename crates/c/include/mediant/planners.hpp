@@ -285,7 +285,9 @@ public:
   // The lengths of the paths to each of many goals; infinity where none leads.
   std::vector<double> distances(point start, const Goals &goals) {
     std::vector<double> lengths(goals.size());
-    detail::check(mediant_planner_distances(handle_, start, goals.handle(), lengths.data(), lengths.size()));
+    std::size_t count = 0;
+    detail::check(
+        mediant_planner_distances(handle_, start, goals.handle(), lengths.data(), lengths.size(), &count));
     return lengths;
   }
   // The goal to which the path is shortest; none if there is no way to any.
@@ -303,9 +305,9 @@ private:
   mediant::answer told(const mediant_answer &raw) const {
     mediant::answer answer{raw.status,      raw.stopped_by,           {}, raw.distance, raw.length,
                            raw.lower_bound, raw.any_angle_lower_bound};
-    answer.points.resize(raw.points);
+    answer.points.resize(raw.point_count);
     std::size_t count = 0;
-    detail::check(mediant_planner_points(handle_, answer.points.data(), raw.points, &count));
+    detail::check(mediant_planner_points(handle_, answer.points.data(), raw.point_count, &count));
     return answer;
   }
 

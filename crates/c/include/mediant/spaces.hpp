@@ -118,6 +118,24 @@ struct choice {
   std::string why;
 };
 
+namespace detail {
+
+// A path that the library found for a single question.
+class one_path : public held<mediant_batch, mediant_batch_free> {
+public:
+  explicit one_path(mediant_batch handle) noexcept : held(handle) {}
+  // Its points; none where none leads.
+  std::vector<point> points() const { return {raw().points, raw().points + raw().firsts[1]}; }
+  double length() const { return raw().lengths[0]; }
+
+private:
+  mediant_paths raw() const {
+    return one<mediant_paths>([&](mediant_paths *paths) { return mediant_batch_paths(handle_, paths); });
+  }
+};
+
+} // namespace detail
+
 // A map with rules of motion: what is searched. It never changes.
 class Space : public detail::held<mediant_space, mediant_space_free> {
 public:
@@ -158,15 +176,12 @@ public:
   // A path of a single question, without an index; none where none leads.
   std::optional<mediant::path> path(point start, point goal, const watcher &watch = {}) const {
     detail::watched watched(watch);
-    mediant::path path;
-    path.points = detail::all<point>(
-        [&](point *points, std::size_t room, std::size_t *count) {
-          mediant_code result =
-              mediant_space_path(handle_, start, goal, watched.get(), points, room, count, &path.length);
-          watched.rethrow();
-          return result;
+    auto found = detail::made<detail::one_path>(
+        [&](mediant_batch *path) {
+          return mediant_space_path(handle_, start, goal, watched.get(), path);
         },
-        ROOM);
+        &watched);
+    mediant::path path{found.points(), found.length()};
     return path.points.empty() ? std::nullopt : std::optional<mediant::path>(std::move(path));
   }
   // The path that keeps as far off obstacles as one can that is at most so much longer than the shortest: 0.2
@@ -175,14 +190,13 @@ public:
                                        const watcher &watch = {}) const {
     detail::watched watched(watch);
     wide_path path;
-    path.points = detail::all<point>(
-        [&](point *points, std::size_t room, std::size_t *count) {
-          mediant_code result = mediant_space_widest_path(handle_, start, goal, surplus, watched.get(), points,
-                                                        room, count, &path.radius);
-          watched.rethrow();
-          return result;
-        },
-        ROOM);
+    path.points = detail::made<detail::one_path>(
+                      [&](mediant_batch *found) {
+                        return mediant_space_widest_path(handle_, start, goal, surplus, watched.get(), found,
+                                                         &path.radius);
+                      },
+                      &watched)
+                      .points();
     return path.points.empty() ? std::nullopt : std::optional<wide_path>(std::move(path));
   }
   // The engine that is best for so many paths.
@@ -201,10 +215,6 @@ public:
       return mediant_path_touched_cells(handle_, path.data(), path.size(), cells, room, total);
     });
   }
-
-private:
-  // Points of a path at first. One with more is searched for again.
-  static constexpr std::size_t ROOM = 1024;
 };
 
 // Every vertex on a path, where its points are the turns alone. A path with points between vertices has none.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use mediant::{
-    Change, Disc, Ends, Engine, Error, ErrorCode, Exceptions, K, Map, Motion, PlacementKind, Planner, Query,
-    Rectangle, Rules, Setup, Vertex,
+    Change, Disc, Ends, Engine, Error, ErrorCode, Exceptions, K, Limits, Map, Motion, PlacementKind, Planner,
+    Query, Rectangle, Rules, Setup, Vertex,
 };
 use mediant_grid::Grid;
 use mediant_oracle::{Rng, noise, on_all_cores, random_change, random_grid, random_vertex, seeds};
@@ -224,4 +224,17 @@ fn discs_and_squares_follow_changes() {
     let maps = seeds.end as usize;
     let differ: usize = on_all_cores(seeds, check_agents).into_iter().sum();
     assert!(differ > 3 * maps, "{differ} rectangles");
+}
+
+#[test]
+fn query_without_an_end_is_none_whatever_stops_it() {
+    let space =
+        Map::from_rows(["....", ".@..", "...."]).expect("a map").space(Motion::centers(3)).expect("k = 3");
+    let mut planner = space.planner(Engine::Subgoal).expect("subgoals");
+    let none: [Vertex; 0] = [];
+    for query in [Query::between(none, [(0, 0)]), Query::between([(0, 0)], none)] {
+        let query = query.within(Limits::new().deadline(|| true));
+        let found = planner.find_except(query, &Exceptions::new().free([(1, 1)]));
+        assert_eq!(found.unwrap_err().code(), ErrorCode::NoEnd);
+    }
 }
