@@ -249,38 +249,12 @@ typedef struct {
   uint64_t id;
 } mediant_field;
 
-// Goals that are prepared for an index. They never change; planners of indexes with the same map and motion
-// share them. `{0}` is none.
-typedef struct {
-  // Its number.
-  uint64_t id;
-} mediant_goals;
-
 // A map: which cells are blocked, and what they cost. It never changes; any number of threads may use it.
 // `{0}` is no map.
 typedef struct {
   // Its number.
   uint64_t id;
 } mediant_map;
-
-// A rectangle of cells.
-typedef struct {
-  // The first column.
-  uint32_t x;
-  // The first row.
-  uint32_t y;
-  // The number of columns.
-  uint32_t width;
-  // The number of rows.
-  uint32_t height;
-} mediant_area;
-
-// Answers queries on an index, one after another. One call at a time may use it: another one at the same
-// time returns `MEDIANT_CODE_BUSY`. Each thread makes a planner of its own. `{0}` is no planner.
-typedef struct {
-  // Its number.
-  uint64_t id;
-} mediant_planner;
 
 // The answer to a query.
 typedef struct {
@@ -300,6 +274,32 @@ typedef struct {
   // A lower bound on the length of all paths at any angle; NaN where there is none.
   double any_angle_lower_bound;
 } mediant_answer;
+
+// Goals that are prepared for an index. They never change; planners of indexes with the same map and motion
+// share them. `{0}` is none.
+typedef struct {
+  // Its number.
+  uint64_t id;
+} mediant_goals;
+
+// A rectangle of cells.
+typedef struct {
+  // The first column.
+  uint32_t x;
+  // The first row.
+  uint32_t y;
+  // The number of columns.
+  uint32_t width;
+  // The number of rows.
+  uint32_t height;
+} mediant_area;
+
+// Answers queries on an index, one after another. One call at a time may use it: another one at the same
+// time returns `MEDIANT_CODE_BUSY`. Each thread makes a planner of its own. `{0}` is no planner.
+typedef struct {
+  // Its number.
+  uint64_t id;
+} mediant_planner;
 
 // Cells that count otherwise than on the map, for one query.
 typedef struct {
@@ -474,6 +474,24 @@ mediant_code mediant_field_path_from(mediant_field field,
                                      mediant_point *points,
                                      size_t room,
                                      size_t *count);
+
+// A path from any of several starts to any of several goals, in one call. Space and engine are chosen by what
+// is asked, and kept with the map for the next call. `words` has parameters of all kinds, as in
+// `"k=any gap=closed nearest"`; null is none. The path is a batch with this path alone, as that of
+// `mediant_space_path`. For many paths prepare an index, and ask a planner.
+//
+// Required:
+// `starts` and `goals` lead to as many points as they have; `words` is a text or null; `watcher` is null or
+// leads to one; `path` leads to a handle's memory, `answer` to an answer's.
+mediant_code mediant_map_find(mediant_map map,
+                              const mediant_point *starts,
+                              size_t start_count,
+                              const mediant_point *goals,
+                              size_t goal_count,
+                              const char *words,
+                              const mediant_watcher *watcher,
+                              mediant_batch *path,
+                              mediant_answer *answer);
 
 // Prepares goals that many starts ask for.
 //

@@ -22,6 +22,7 @@ pub mod bytes;
 pub mod code;
 pub mod failure;
 pub mod field;
+pub mod find;
 pub mod goals;
 mod handles;
 pub mod index;
@@ -34,5 +35,7 @@ pub mod space;
 pub mod watch;
 mod words;
 
+#[cfg(test)]
+mod calls;
 #[cfg(test)]
 mod header;

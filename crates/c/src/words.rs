@@ -15,6 +15,7 @@ use crate::{failure::Failure, memory, watch::Watch};
 /// The groups of parameters that a function takes.
 pub(crate) type Takes = &'static [Group];
 
+pub(crate) const ALL: Takes = &Group::ALL;
 pub(crate) const MOTION: Takes = &[Group::Motion];
 pub(crate) const WISHES: Takes = &[Group::Wishes];
 pub(crate) const PREPARATION: Takes = &[Group::Engine, Group::Options];
@@ -57,14 +58,20 @@ pub(crate) fn query(
     goals: &[library::Point],
     watch: &Watch,
 ) -> Query {
-    let mut limits = watch.limit(call.wishes().limits());
-    if let Some(milliseconds) = call.wishes().timeout {
-        // More than a clock can count is no limit.
-        if let Ok(most) = Duration::try_from_secs_f64(milliseconds / 1000.0) {
-            limits = limits.time(most);
-        }
-    }
+    let limits = timed(call, watch.limit(call.wishes().limits()));
     call.wishes().query(starts, goals, limits)
+}
+
+/// The limits of preparing what a call needs. Its time begins now.
+pub(crate) fn preparing(call: &Call, watch: &Watch) -> Limits {
+    timed(call, limits(watch))
+}
+
+/// Limits with the time that a call may take, from now on.
+fn timed(call: &Call, limits: Limits) -> Limits {
+    let most = call.wishes().timeout.map(|milliseconds| Duration::try_from_secs_f64(milliseconds / 1000.0));
+    // More than a clock can count is no limit.
+    if let Some(Ok(most)) = most { limits.time(most) } else { limits }
 }
 
 /// The limits of what is no search.
