@@ -318,6 +318,49 @@ static void test_fields(void) {
   OK(mediant_map_free(map));
 }
 
+/* One call from a map to a path. */
+static void test_find(void) {
+  mediant_map map;
+  mediant_batch path;
+  mediant_paths paths;
+  mediant_answer answer;
+  mediant_point starts[] = {{0, 0}, {0, 4}}, goal = {6, 4}, inside = {2, 2};
+  OK(mediant_map_parse(RING, &map));
+  OK(mediant_map_find(map, starts, 1, &goal, 1, "k=any gap=closed", NULL, &path, &answer));
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.point_count == 3);
+  NEAR(answer.distance, sqrt(26) + sqrt(10));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.count == 1 && paths.firsts[1] == 3 && same(paths.points[1], at(5, 1)));
+  OK(mediant_batch_free(path));
+
+  /* From the nearer of two starts; none where none leads, but a path to the nearest place. */
+  mediant_point end = {5, 4};
+  OK(mediant_map_find(map, starts, 2, &end, 1, NULL, NULL, &path, &answer));
+  IS(answer.status == MEDIANT_STATUS_FOUND && answer.distance == 5);
+  OK(mediant_batch_free(path));
+  OK(mediant_map_find(map, starts, 1, &inside, 1, "neighbors=4", NULL, &path, &answer));
+  IS(answer.status == MEDIANT_STATUS_UNREACHABLE && answer.point_count == 0 && isinf(answer.distance));
+  OK(mediant_batch_paths(path, &paths));
+  IS(paths.count == 1 && paths.firsts[1] == 0);
+  OK(mediant_batch_free(path));
+  OK(mediant_map_find(map, starts, 1, &inside, 1, "nearest engine=astar", NULL, &path, &answer));
+  IS(answer.status == MEDIANT_STATUS_NEAREST && answer.point_count > 0);
+  OK(mediant_batch_free(path));
+  /* Out of time before anything is prepared. */
+  OK(mediant_map_find(map, starts, 1, &end, 1, "engine=jps-plus timeout=0", NULL, &path, &answer));
+  IS(answer.status == MEDIANT_STATUS_STOPPED && answer.stopped_by == MEDIANT_LIMIT_TIMEOUT);
+  OK(mediant_batch_free(path));
+
+  FAILS(mediant_map_find(map, starts, 1, &end, 1, "k=13", NULL, &path, &answer), MEDIANT_CODE_MOTION, "13");
+  FAILS(mediant_map_find(map, starts, 1, &end, 1, "side=4 engine=jps", NULL, &path, &answer),
+        MEDIANT_CODE_ENGINE_OPTION, "side");
+  FAILS(mediant_map_find(map, starts, 0, &end, 1, NULL, NULL, &path, &answer), MEDIANT_CODE_NO_END, "start");
+  FAILS(mediant_map_find(map, starts, 1, &end, 1, NULL, NULL, NULL, &answer), MEDIANT_CODE_ARGUMENT, "path");
+  FAILS(mediant_map_find(map, starts, 1, &end, 1, NULL, NULL, &path, NULL), MEDIANT_CODE_ARGUMENT, "answer");
+  OK(mediant_map_free(map));
+  FAILS(mediant_map_find(map, starts, 1, &end, 1, NULL, NULL, &path, &answer), MEDIANT_CODE_HANDLE, "map");
+}
+
 int main(int arguments, char **argument) {
   if (arguments != 2) {
     fprintf(stderr, "usage: %s FOLDER\n", argument[0]);
@@ -328,6 +371,7 @@ int main(int arguments, char **argument) {
   test_files(argument[1]);
   test_made_maps();
   test_spaces();
+  test_find();
   test_paths();
   test_fields();
   test_planner();

@@ -119,6 +119,17 @@ void test_maps(const std::string &folder) {
   IS(!map && over.handle().id != 0 && over.cells() == cells);
 }
 
+void test_find() {
+  auto map = mediant::Map::parse(RING);
+  auto found = map.find({0, 0}, {6, 4}, "k=any gap=closed");
+  IS(found.found() && found.points.size() == 3 && same(found.points[1], {5, 1}));
+  NEAR(found.distance, DIRECT);
+  std::vector<mediant::point> starts{{0, 0}, {0, 4}}, goals{{5, 4}};
+  IS(map.find(starts, goals).distance == 5);
+  IS(map.find({0, 0}, {2, 2}).points.empty() && !map.find({0, 0}, {2, 2}, "nearest").points.empty());
+  THROWS(map.find({1, 1}, {5, 4}), MEDIANT_CODE_START_BLOCKED);
+}
+
 void test_spaces() {
   auto map = mediant::Map::parse(RING);
   mediant::Space space(map), corners(map, "k=any gap=closed");
@@ -394,6 +405,7 @@ int main(int arguments, char **argument) {
   test_library();
   test_views();
   test_maps(folder);
+  test_find();
   test_spaces();
   test_fields();
   test_indexes(folder);

@@ -303,8 +303,7 @@ private:
   }
 
   mediant::answer told(const mediant_answer &raw) const {
-    mediant::answer answer{raw.status,      raw.stopped_by,           {}, raw.distance, raw.length,
-                           raw.lower_bound, raw.any_angle_lower_bound};
+    mediant::answer answer = detail::told(raw);
     answer.points.resize(raw.point_count);
     std::size_t count = 0;
     detail::check(mediant_planner_points(handle_, answer.points.data(), raw.point_count, &count));

@@ -12,6 +12,24 @@ struct extent {
   std::uint32_t height = 0;
 };
 
+namespace detail {
+
+// A path that the library found for a single question.
+class one_path : public held<mediant_batch, mediant_batch_free> {
+public:
+  explicit one_path(mediant_batch handle) noexcept : held(handle) {}
+  // Its points; none where none leads.
+  std::vector<point> points() const { return {raw().points, raw().points + raw().firsts[1]}; }
+  double length() const { return raw().lengths[0]; }
+
+private:
+  mediant_paths raw() const {
+    return one<mediant_paths>([&](mediant_paths *paths) { return mediant_batch_paths(handle_, paths); });
+  }
+};
+
+} // namespace detail
+
 // A map: which cells are blocked, and what they cost. It never changes.
 class Map : public detail::held<mediant_map, mediant_map_free> {
 public:
@@ -98,6 +116,26 @@ public:
     detail::check(mediant_map_clearance(handle_, distances.data(), distances.size()));
     return distances;
   }
+  // A path from any of several starts to any of several goals, in one call, by parameters of all kinds:
+  // "k=any gap=closed nearest". For many paths prepare an index.
+  mediant::answer find(view<point> starts, view<point> goals, const std::string &words = {},
+                       const watcher &watch = {}) const {
+    detail::watched watched(watch);
+    mediant_answer raw{};
+    auto path = detail::made<detail::one_path>(
+        [&](mediant_batch *path) {
+          return mediant_map_find(handle_, starts.data(), starts.size(), goals.data(), goals.size(),
+                                  detail::text(words), watched.get(), path, &raw);
+        },
+        &watched);
+    mediant::answer answer = detail::told(raw);
+    answer.points = path.points();
+    return answer;
+  }
+  mediant::answer find(point start, point goal, const std::string &words = {},
+                       const watcher &watch = {}) const {
+    return find(view<point>(&start, 1), view<point>(&goal, 1), words, watch);
+  }
 
 private:
   std::size_t count() const {
@@ -117,24 +155,6 @@ struct choice {
   std::string engine;
   std::string why;
 };
-
-namespace detail {
-
-// A path that the library found for a single question.
-class one_path : public held<mediant_batch, mediant_batch_free> {
-public:
-  explicit one_path(mediant_batch handle) noexcept : held(handle) {}
-  // Its points; none where none leads.
-  std::vector<point> points() const { return {raw().points, raw().points + raw().firsts[1]}; }
-  double length() const { return raw().lengths[0]; }
-
-private:
-  mediant_paths raw() const {
-    return one<mediant_paths>([&](mediant_paths *paths) { return mediant_batch_paths(handle_, paths); });
-  }
-};
-
-} // namespace detail
 
 // A map with rules of motion: what is searched. It never changes.
 class Space : public detail::held<mediant_space, mediant_space_free> {

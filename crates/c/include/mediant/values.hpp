@@ -101,6 +101,16 @@ struct answer {
   bool found() const noexcept { return status == MEDIANT_STATUS_FOUND; }
 };
 
+namespace detail {
+
+// An answer, whose points are still to come.
+inline mediant::answer told(const mediant_answer &raw) {
+  return {raw.status,      raw.stopped_by,           {}, raw.distance, raw.length,
+          raw.lower_bound, raw.any_angle_lower_bound};
+}
+
+} // namespace detail
+
 // Functions that are called while some work goes on, from any thread, and from several at once. An exception
 // of theirs stops the work, and is thrown again by the function that was called. Each may be empty.
 struct watcher {
