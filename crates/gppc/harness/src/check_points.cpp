@@ -43,7 +43,8 @@ std::string along_edges(const Map &map, int x, int y, int sx, int sy, int count)
     }
     // The cells on both sides of the edge from (x, y) on.
     int left = std::min(x, x + sx), top = std::min(y, y + sy);
-    bool open = sy == 0 ? map.free(left, y - 1) || map.free(left, y) : map.free(x - 1, top) || map.free(x, top);
+    bool open =
+        sy == 0 ? map.free(left, y - 1) || map.free(left, y) : map.free(x - 1, top) || map.free(x, top);
     if (!open) {
       return "it passes between two blocked cells at " + text(left, top);
     }
@@ -61,7 +62,8 @@ std::string through_cells(const Map &map, int x0, int y0, int x1, int y1) {
   for (std::int64_t column = 0; column < dx; ++column) {
     // The heights where it enters and leaves the column, times dx, above y0.
     std::int64_t enters = column * dy, leaves = enters + dy;
-    std::int64_t low = floor_of(std::min(enters, leaves), dx), high = -floor_of(-std::max(enters, leaves), dx);
+    std::int64_t low = floor_of(std::min(enters, leaves), dx),
+                 high = -floor_of(-std::max(enters, leaves), dx);
     for (std::int64_t row = low; row < high; ++row) {
       int x = x0 + static_cast<int>(column), y = y0 + static_cast<int>(row);
       if (!map.free(x, y)) {
@@ -101,8 +103,8 @@ void add_crossings(double from, double to, std::vector<long double> &crossings) 
   }
 }
 
-// A point that is in the middle of a piece, or nearly: a cell near it is free. A piece crosses no line, so its
-// depth in a cell is concave along it, and nowhere more than twice the depth of its middle.
+// A point that is in the middle of a piece, or nearly: a cell near it is free. A piece crosses no line, so
+// its depth in a cell is concave along it, and nowhere more than twice the depth of its middle.
 bool near_free_cell(const Map &map, long double x, long double y) {
   for (long double cx : {std::floor(x - SLACK), std::floor(x + SLACK)}) {
     for (long double cy : {std::floor(y - SLACK), std::floor(y + SLACK)}) {
@@ -118,7 +120,8 @@ bool near_free_cell(const Map &map, long double x, long double y) {
 bool passes_corner(const Map &map, Point from, Point to, long double x, long double y) {
   long double cx = std::round(x), cy = std::round(y);
   return std::hypot(cx - x, cy - y) <= SLACK && std::hypot(cx - from.x, cy - from.y) > SLACK &&
-         std::hypot(cx - to.x, cy - to.y) > SLACK && is_double_corner(map, static_cast<int>(cx), static_cast<int>(cy));
+         std::hypot(cx - to.x, cy - to.y) > SLACK &&
+         is_double_corner(map, static_cast<int>(cx), static_cast<int>(cy));
 }
 
 std::string near_segment(const Map &map, Point from, Point to) {
@@ -130,8 +133,8 @@ std::string near_segment(const Map &map, Point from, Point to) {
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     long double middle = (crossings[i - 1] + crossings[i]) / 2;
     if (!near_free_cell(map, from.x + dx * middle, from.y + dy * middle)) {
-      return "it is in no free cell near " + text(from.x + static_cast<double>(dx * middle),
-                                                  from.y + static_cast<double>(dy * middle));
+      return "it is in no free cell near " +
+             text(from.x + static_cast<double>(dx * middle), from.y + static_cast<double>(dy * middle));
     }
     long double x = from.x + dx * crossings[i], y = from.y + dy * crossings[i];
     if (passes_corner(map, from, to, x, y)) {
@@ -143,7 +146,8 @@ std::string near_segment(const Map &map, Point from, Point to) {
 
 // ---- Corners at which a path begins, turns and ends
 
-// Whether a direction lies in a closed quadrant. Between corners it is made of integers: the slack adds nothing.
+// Whether a direction lies in a closed quadrant. Between corners it is made of integers: the slack adds
+// nothing.
 bool within(Point direction, int sx, int sy) {
   return direction.x * sx >= -SLACK && direction.y * sy >= -SLACK;
 }
@@ -234,7 +238,8 @@ CheckedPoints check_points(const Map &map, Cell start, Cell goal, const std::vec
     if (!checked.wrong.empty()) {
       checked.wrong = "the segment from " + text(from) + " to " + text(to) + ": " + checked.wrong;
     }
-    checked.length += std::hypot(static_cast<long double>(to.x) - from.x, static_cast<long double>(to.y) - from.y);
+    checked.length +=
+        std::hypot(static_cast<long double>(to.x) - from.x, static_cast<long double>(to.y) - from.y);
   }
   if (checked.wrong.empty()) {
     checked.wrong = check_turns(map, path);

@@ -22,7 +22,8 @@ gppc_point point_of(Cell at) {
 }
 
 gppc_patch patch_of(const Map &map, Cell at) {
-  return {map.bytes(), static_cast<std::uint16_t>(map.width()), static_cast<std::uint16_t>(map.height()), point_of(at)};
+  return {map.bytes(), static_cast<std::uint16_t>(map.width()), static_cast<std::uint16_t>(map.height()),
+          point_of(at)};
 }
 
 // An answer from the pieces in which an entry tells it.
@@ -76,7 +77,8 @@ private:
   std::size_t most_;
 };
 
-void tell_changes(const Library &library, void *data, const Timeline &timeline, const Query &query, Charge &charge) {
+void tell_changes(const Library &library, void *data, const Timeline &timeline, const Query &query,
+                  Charge &charge) {
   std::vector<gppc_patch> patches;
   for (const Placed &placed : query.changes) {
     patches.push_back(patch_of(timeline.patches[placed.patch], placed.at));
@@ -117,7 +119,9 @@ void run(const std::string &file, const Options &options, const Timeline &timeli
     Replay replay(timeline);
     Library(file).preprocess(patch_of(replay.map(), {0, 0}), index.c_str());
   };
-  task.answer = [&](const std::string &index, Answers &answers) { answer(Library(file), timeline, index, answers); };
+  task.answer = [&](const std::string &index, Answers &answers) {
+    answer(Library(file), timeline, index, answers);
+  };
   Answers answers = run_task(task, options.seconds);
   Reference reference = options.reference ? Reference::all : Reference::unstated;
   report.add(timeline, answers, judge(Track::dynamic, reference, timeline, answers));
@@ -125,9 +129,10 @@ void run(const std::string &file, const Options &options, const Timeline &timeli
 
 int run_all(const Options &options) {
   if (options.files.empty()) {
-    std::fputs("usage: gppc-dynamic LIBRARY [SCENARIO...] [--timelines N] [--seed S] [--side N] [--write FOLDER]\n"
-               "                    [--reference] [--processor] [--csv FILE] [--tags KINDS] [--seconds N]\n",
-               stderr);
+    std::fputs(
+        "usage: gppc-dynamic LIBRARY [SCENARIO...] [--timelines N] [--seed S] [--side N] [--write FOLDER]\n"
+        "                    [--reference] [--processor] [--csv FILE] [--tags KINDS] [--seconds N]\n",
+        stderr);
     return 2;
   }
   const std::string &library = options.files[0];
@@ -142,7 +147,8 @@ int run_all(const Options &options) {
     run(library, options, read_dynamic(options.files[i]), report);
   }
   for (std::size_t i = 0; i < options.generated; ++i) {
-    Timeline timeline = generate_timeline(options.seed, i, options.side > 0 ? static_cast<int>(options.side) : SIDE);
+    Timeline timeline =
+        generate_timeline(options.seed, i, options.side > 0 ? static_cast<int>(options.side) : SIDE);
     state_lengths(Track::dynamic, timeline);
     if (!options.write.empty()) {
       write_dynamic(options.write + "/" + timeline.name + "-" + std::to_string(i), timeline);

@@ -16,8 +16,7 @@ struct Area {
 // Paints a map, and tells of what it painted by patches.
 class Painter {
 public:
-  Painter(std::uint64_t seed, int width, int height)
-      : random(seed), now(width, height, true), timeline_() {
+  Painter(std::uint64_t seed, int width, int height) : random(seed), now(width, height, true), timeline_() {
     timeline_.width = width;
     timeline_.height = height;
   }

@@ -63,8 +63,8 @@ bool differs(const Stated &stated, const Shortest &shortest) {
 std::vector<Cell> cells_of(const std::vector<Point> &points) {
   std::vector<Cell> cells;
   for (Point point : points) {
-    bool is_cell = point.x == std::floor(point.x) && point.y == std::floor(point.y) && std::fabs(point.x) <= 1e6 &&
-                   std::fabs(point.y) <= 1e6;
+    bool is_cell = point.x == std::floor(point.x) && point.y == std::floor(point.y) &&
+                   std::fabs(point.x) <= 1e6 && std::fabs(point.y) <= 1e6;
     cells.push_back(is_cell ? Cell{static_cast<int>(point.x), static_cast<int>(point.y)} : Cell{-1, -1});
   }
   return cells;
@@ -84,8 +84,8 @@ void compare(const Shortest &shortest, bool equal, Verdict &verdict) {
   }
 }
 
-void judge_path(Track track, const Map &map, const Query &query, const Answer &answer, const Shortest &shortest,
-                Verdict &verdict) {
+void judge_path(Track track, const Map &map, const Query &query, const Answer &answer,
+                const Shortest &shortest, Verdict &verdict) {
   Octile cells;
   if (track == Track::any_angle) {
     CheckedPoints checked = check_points(map, query.start, query.goal, answer.points);
@@ -104,7 +104,8 @@ void judge_path(Track track, const Map &map, const Query &query, const Answer &a
   }
 }
 
-Verdict judge_one(Track track, Reference reference, const Map &map, const Query &query, const Answer &answer) {
+Verdict judge_one(Track track, Reference reference, const Map &map, const Query &query,
+                  const Answer &answer) {
   Verdict verdict;
   Shortest shortest = shortest_of(track, reference, map, query);
   verdict.shortest = !shortest.known || shortest.none ? -1 : shortest.length;
@@ -128,7 +129,8 @@ Verdict judge_one(Track track, Reference reference, const Map &map, const Query 
 
 } // namespace
 
-std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline, const Answers &answers) {
+std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline,
+                           const Answers &answers) {
   std::vector<Verdict> verdicts;
   Replay replay(timeline);
   for (std::size_t i = 0; i < timeline.queries.size() && i < answers.answers.size(); ++i) {
@@ -150,7 +152,8 @@ void state_lengths(Track track, Timeline &timeline) {
     first = false;
     if (!query.stated.known) {
       Shortest shortest = searched(track, replay.map(), query);
-      query.stated = {true, shortest.none, shortest.some, shortest.length, 1e-10L * (1 + std::fabs(shortest.length))};
+      query.stated = {true, shortest.none, shortest.some, shortest.length,
+                      1e-10L * (1 + std::fabs(shortest.length))};
     }
   }
 }

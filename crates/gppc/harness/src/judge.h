@@ -35,7 +35,8 @@ struct Verdict {
 enum class Reference { none, unstated, all };
 
 // Judges the answers to a timeline in order.
-std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline, const Answers &answers);
+std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline,
+                           const Answers &answers);
 
 // States the lengths of a timeline for which none are stated.
 void state_lengths(Track track, Timeline &timeline);

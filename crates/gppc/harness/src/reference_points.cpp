@@ -71,7 +71,8 @@ std::optional<long double> shortest_by_points(const Map &map, Cell start, Cell g
       bool wrong = done[i] || from == to || !may_leave(map, from, to) || !may_leave(map, to, from);
       if (!wrong && best[next] + distance(from, to) < best[i] &&
           check_segment(map, {static_cast<double>(from.x), static_cast<double>(from.y)},
-                        {static_cast<double>(to.x), static_cast<double>(to.y)}).empty()) {
+                        {static_cast<double>(to.x), static_cast<double>(to.y)})
+              .empty()) {
         best[i] = best[next] + distance(from, to);
       }
     }

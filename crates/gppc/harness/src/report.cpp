@@ -24,11 +24,11 @@ double per(std::int64_t time, std::size_t count, double unit) {
 
 void print_row(const Row &row) {
   std::printf("%-32s %9zu %9zu %9zu %6zu %8zu %10.2f %10.2f %10.2f %10.2f %10.1f %9.2f %9.2f %8.1f %11lld\n",
-              row.name.c_str(), row.instances, row.valid, row.optimal, row.wrong, row.none, per(row.times.total, 1, 1e6),
-              per(row.times.change, 1, 1e6), per(row.times.total, row.instances, 1e3),
-              per(row.times.first, row.instances, 1e3), per(row.times.longest, 1, 1e3), per(row.init, 1, 1e6),
-              per(row.prepare, 1, 1e6), static_cast<double>(row.kilobytes) / 1024,
-              static_cast<long long>(row.index_bytes));
+              row.name.c_str(), row.instances, row.valid, row.optimal, row.wrong, row.none,
+              per(row.times.total, 1, 1e6), per(row.times.change, 1, 1e6),
+              per(row.times.total, row.instances, 1e3), per(row.times.first, row.instances, 1e3),
+              per(row.times.longest, 1, 1e3), per(row.init, 1, 1e6), per(row.prepare, 1, 1e6),
+              static_cast<double>(row.kilobytes) / 1024, static_cast<long long>(row.index_bytes));
 }
 
 void add_row(Row &sum, const Row &row) {
@@ -80,16 +80,16 @@ void Report::add_one(Row &row, const Timeline &timeline, const Query &query, con
   row.none += verdict.none;
   add_times(row.times, answer.times);
   if (!verdict.why.empty()) {
-    complain(timeline.which + ", query " + std::to_string(query.number) + " from (" + std::to_string(query.start.x) +
-             ", " + std::to_string(query.start.y) + ") to (" + std::to_string(query.goal.x) + ", " +
-             std::to_string(query.goal.y) + "): " + verdict.why + "; length " + std::to_string(verdict.length) +
-             ", shortest " + std::to_string(verdict.shortest));
+    complain(timeline.which + ", query " + std::to_string(query.number) + " from (" +
+             std::to_string(query.start.x) + ", " + std::to_string(query.start.y) + ") to (" +
+             std::to_string(query.goal.x) + ", " + std::to_string(query.goal.y) + "): " + verdict.why +
+             "; length " + std::to_string(verdict.length) + ", shortest " + std::to_string(verdict.shortest));
   }
   if (csv_.is_open()) {
     csv_ << timeline.name << ',' << query.number << ',' << query.start.x << ',' << query.start.y << ','
          << query.goal.x << ',' << query.goal.y << ',' << answer.points.size() << ',' << verdict.length << ','
-         << verdict.shortest << ',' << word_for(verdict) << ',' << answer.times.total << ',' << answer.times.change
-         << ',' << answer.times.first << ',' << answer.times.longest << '\n';
+         << verdict.shortest << ',' << word_for(verdict) << ',' << answer.times.total << ','
+         << answer.times.change << ',' << answer.times.first << ',' << answer.times.longest << '\n';
   }
 }
 
@@ -113,15 +113,16 @@ void Report::add(const Timeline &timeline, const Answers &answers, const std::ve
   std::size_t missing = timeline.queries.size() - verdicts.size();
   if (missing > 0 || !answers.failure.empty()) {
     row.wrong += std::max<std::size_t>(missing, 1);
-    complain(timeline.which + ": " + std::to_string(missing) + " queries are without an answer; " + answers.failure);
+    complain(timeline.which + ": " + std::to_string(missing) + " queries are without an answer; " +
+             answers.failure);
   }
 }
 
 int Report::print() const {
   std::printf("Entry: %s\n", entry_.c_str());
-  std::printf("%-32s %9s %9s %9s %6s %8s %10s %10s %10s %10s %10s %9s %9s %8s %11s\n", "name", "instances", "valid",
-              "optimal", "wrong", "no path", "total ms", "change ms", "mean us", "first us", "longest us", "init ms",
-              "pre ms", "mem MB", "index bytes");
+  std::printf("%-32s %9s %9s %9s %6s %8s %10s %10s %10s %10s %10s %9s %9s %8s %11s\n", "name", "instances",
+              "valid", "optimal", "wrong", "no path", "total ms", "change ms", "mean us", "first us",
+              "longest us", "init ms", "pre ms", "mem MB", "index bytes");
   Row sum;
   sum.name = "in all";
   for (const Row &row : rows_) {
@@ -132,7 +133,8 @@ int Report::print() const {
     print_row(sum);
   }
   if (sum.unknown > 0) {
-    std::printf("Of %zu answers only the path was checked: nobody states the shortest length.\n", sum.unknown);
+    std::printf("Of %zu answers only the path was checked: nobody states the shortest length.\n",
+                sum.unknown);
   }
   if (sum.misstated > 0) {
     std::printf("Of %zu queries the file states another length than the harness found.\n", sum.misstated);

@@ -38,7 +38,8 @@ public:
   int print() const;
 
 private:
-  void add_one(Row &row, const Timeline &timeline, const Query &query, const Answer &answer, const Verdict &verdict);
+  void add_one(Row &row, const Timeline &timeline, const Query &query, const Answer &answer,
+               const Verdict &verdict);
   void complain(const std::string &sentence);
 
   std::vector<Row> rows_;

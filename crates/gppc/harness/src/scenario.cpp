@@ -43,7 +43,8 @@ struct Digits {
     if (point != std::string::npos) {
       decimals = std::max(decimals, static_cast<int>(number.size() - point - 1));
     }
-    auto digits = static_cast<int>(std::count_if(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
+    auto digits = static_cast<int>(
+        std::count_if(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
     counting = std::max(counting, digits);
   }
 
@@ -97,7 +98,8 @@ int side(std::istream &in, const std::string &file, const std::string &word) {
   return value;
 }
 
-// Head of a scenario of version 2. Returns how many lengths a query has, and which one is over eight directions.
+// Head of a scenario of version 2. Returns how many lengths a query has, and which one is over eight
+// directions.
 std::pair<int, int> read_head(std::istream &in, const std::string &file, Timeline &timeline) {
   expect(in, file, "version");
   expect(in, file, "2");
@@ -125,7 +127,8 @@ std::pair<int, int> read_head(std::istream &in, const std::string &file, Timelin
 Placed read_change(std::istream &in, const std::string &file, const Timeline &timeline) {
   int bucket = 0;
   Placed placed;
-  if (!(in >> bucket >> placed.patch >> placed.at.x >> placed.at.y) || placed.patch >= timeline.patches.size()) {
+  if (!(in >> bucket >> placed.patch >> placed.at.x >> placed.at.y) ||
+      placed.patch >= timeline.patches.size()) {
     fail(file, "a line P is not whole, or its patch is unknown");
   }
   const Map &patch = timeline.patches[placed.patch];
@@ -149,8 +152,8 @@ bool read_instance(std::istream &in, const std::string &file, Timeline &timeline
   std::string bucket, map, length;
   int width = 0, height = 0;
   Query query;
-  if (!(in >> bucket >> map >> width >> height >> query.start.x >> query.start.y >> query.goal.x >> query.goal.y >>
-        length)) {
+  if (!(in >> bucket >> map >> width >> height >> query.start.x >> query.start.y >> query.goal.x >>
+        query.goal.y >> length)) {
     return false;
   }
   query.number = timeline.queries.size();

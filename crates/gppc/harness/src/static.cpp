@@ -1,5 +1,5 @@
-// gppc-classic and gppc-any-angle: run an entry of C++ that is linked into the program. Which track it is says
-// the folder in which Entry.h is found, and GPPC_ANY_ANGLE.
+// gppc-classic and gppc-any-angle: run an entry of C++ that is linked into the program. Which track it is
+// says the folder in which Entry.h is found, and GPPC_ANY_ANGLE.
 #include "Entry.h"
 #include "generate.h"
 #include "judge.h"
@@ -40,7 +40,8 @@ xyLoc location(Cell at) {
 double length_of(const std::vector<xyLoc> &path) {
   double length = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    length += std::hypot(static_cast<double>(path[i].x - path[i - 1].x), static_cast<double>(path[i].y - path[i - 1].y));
+    length += std::hypot(static_cast<double>(path[i].x - path[i - 1].x),
+                         static_cast<double>(path[i].y - path[i - 1].y));
   }
   return length;
 }
@@ -60,7 +61,8 @@ Answer ask(void *data, const Query &query, std::vector<xyLoc> &path) {
   path.clear();
   bool done = false;
   for (int calls = 0; !done; ++calls) {
-    std::int64_t time = timed([&] { done = GetPath(data, location(query.start), location(query.goal), path); });
+    std::int64_t time =
+        timed([&] { done = GetPath(data, location(query.start), location(query.goal), path); });
     charge.call(time, length_of(path));
     if (calls == MOST_CALLS) {
       answer.complaint = "it is never done";
@@ -77,7 +79,9 @@ Answer ask(void *data, const Query &query, std::vector<xyLoc> &path) {
 void run(const Options &options, const Timeline &timeline, Report &report) {
   const std::vector<bool> bits = bits_of(timeline);
   Task task;
-  task.prepare = [&](const std::string &index) { PreprocessMap(bits, timeline.width, timeline.height, index); };
+  task.prepare = [&](const std::string &index) {
+    PreprocessMap(bits, timeline.width, timeline.height, index);
+  };
   task.answer = [&](const std::string &index, Answers &answers) {
     std::int64_t before = memory_now();
     void *data = nullptr;
@@ -114,10 +118,11 @@ void state(const Options &options, Timeline &timeline) {
 
 int run_all(const Options &options) {
   if (options.files.empty() && options.generated == 0) {
-    std::fprintf(stderr,
-                 "usage: %s [SCENARIO...] [--every N] [--costs TABLES] [--generated N] [--seed S] [--side N]\n"
-                 "       [--reference] [--processor] [--csv FILE] [--seconds N]\n",
-                 PROGRAM);
+    std::fprintf(
+        stderr,
+        "usage: %s [SCENARIO...] [--every N] [--costs TABLES] [--generated N] [--seed S] [--side N]\n"
+        "       [--reference] [--processor] [--csv FILE] [--seconds N]\n",
+        PROGRAM);
     return 2;
   }
   timing_clock = options.processor ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC;

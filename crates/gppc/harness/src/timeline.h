@@ -53,7 +53,8 @@ struct Timeline {
 class Replay {
 public:
   // The map is all free, but for the changes before the first query.
-  explicit Replay(const Timeline &timeline) : timeline_(timeline), map_(timeline.width, timeline.height, true) {
+  explicit Replay(const Timeline &timeline)
+      : timeline_(timeline), map_(timeline.width, timeline.height, true) {
     if (!timeline.queries.empty()) {
       apply(timeline.queries.front());
     }

@@ -39,7 +39,8 @@ struct State {
 // Whether the open square of a cell meets a segment: its corners lie strictly on both sides of the line, and
 // the ends not both beyond one side.
 bool meets(int x, int y, const Node &a, const Node &b) {
-  if (std::max(a.x, b.x) <= x || std::min(a.x, b.x) >= x + 1 || std::max(a.y, b.y) <= y || std::min(a.y, b.y) >= y + 1) {
+  if (std::max(a.x, b.x) <= x || std::min(a.x, b.x) >= x + 1 || std::max(a.y, b.y) <= y ||
+      std::min(a.y, b.y) >= y + 1) {
     return false;
   }
   bool left = false, right = false;
@@ -117,7 +118,8 @@ std::size_t node_of(const State &state, xyLoc at) {
   auto is = [&](const Node &node) {
     return node.x == at.x && node.y == at.y && (node.sx == 0 || (node.sx == 1 && node.sy == 1));
   };
-  return static_cast<std::size_t>(std::find_if(state.nodes.begin(), state.nodes.end(), is) - state.nodes.begin());
+  return static_cast<std::size_t>(std::find_if(state.nodes.begin(), state.nodes.end(), is) -
+                                  state.nodes.begin());
 }
 
 void find(State &state, std::size_t start, std::size_t goal) {

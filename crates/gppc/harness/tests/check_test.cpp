@@ -4,6 +4,7 @@
 #include "check_points.h"
 #include "generate.h"
 #include "judge.h"
+#include "random.h"
 #include "reference.h"
 #include "scenario.h"
 
@@ -43,8 +44,10 @@ Map map_of(const std::string &rows) {
   return map;
 }
 
-// Expects a verdict about a path from its first point to its last: a part of the reason, or "" if it is valid.
-void cells(int line, const Map &map, const std::vector<Cell> &path, const std::string &reason, Octile length = {}) {
+// Expects a verdict about a path from its first point to its last: a part of the reason, or "" if it is
+// valid.
+void cells(int line, const Map &map, const std::vector<Cell> &path, const std::string &reason,
+           Octile length = {}) {
   CheckedCells checked = check_cells(map, path.front(), path.back(), path);
   bool right = reason.empty() ? checked.wrong.empty() && checked.length == length
                               : checked.wrong.find(reason) != std::string::npos;
@@ -61,7 +64,8 @@ void points(int line, const Map &map, const std::vector<Point> &path, const std:
   CheckedPoints checked = check_points(map, start, goal, path);
   bool right = reason.empty() ? checked.wrong.empty() : checked.wrong.find(reason) != std::string::npos;
   if (!right) {
-    std::fprintf(stderr, "line %d: '%s' is expected, not '%s'\n", line, reason.c_str(), checked.wrong.c_str());
+    std::fprintf(stderr, "line %d: '%s' is expected, not '%s'\n", line, reason.c_str(),
+                 checked.wrong.c_str());
     ++failures;
   }
 }
@@ -166,6 +170,48 @@ void test_other_points() {
   POINTS(map, {{0.5, 0}, {2, 0}}, "the path leads from");
 }
 
+Map scaled(const Map &map, int by) {
+  Map large(map.width() * by, map.height() * by, false);
+  for (int y = 0; y < large.height(); ++y) {
+    for (int x = 0; x < large.width(); ++x) {
+      large.set(x, y, map.free(x / by, y / by));
+    }
+  }
+  return large;
+}
+
+// A path over fractions of cells is as valid as over the corners of a map that is so much larger, where all
+// is exact.
+void test_scaled(std::uint64_t seed) {
+  Random random(seed);
+  int valid = 0;
+  for (int i = 0; i < 20000; ++i) {
+    int width = random.between(1, 6), height = random.between(1, 6), by = random.between(2, 7);
+    Map map(width, height, true);
+    for (int block = random.between(0, width * height / 2); block > 0; --block) {
+      map.set(random.between(0, width - 1), random.between(0, height - 1), false);
+    }
+    Cell start{random.between(0, width - 1), random.between(0, height - 1)};
+    Cell goal{random.between(0, width - 1), random.between(0, height - 1)};
+    Point middle{static_cast<double>(random.between(0, width * by)),
+                 static_cast<double>(random.between(0, height * by))};
+    auto at = [](Cell cell, int by) {
+      return Point{static_cast<double>(cell.x * by), static_cast<double>(cell.y * by)};
+    };
+    CheckedPoints small =
+        check_points(map, start, goal, {at(start, 1), {middle.x / by, middle.y / by}, at(goal, 1)});
+    CheckedPoints large = check_points(scaled(map, by), {start.x * by, start.y * by},
+                                       {goal.x * by, goal.y * by}, {at(start, by), middle, at(goal, by)});
+    valid += small.wrong.empty();
+    if (small.wrong.empty() != large.wrong.empty()) {
+      std::fprintf(stderr, "seed %llu, number %d: '%s' and '%s'\n", static_cast<unsigned long long>(seed), i,
+                   small.wrong.c_str(), large.wrong.c_str());
+      ++failures;
+    }
+  }
+  IS(valid > 1000);
+}
+
 void test_lengths() {
   IS((Octile{1, 0} < Octile{0, 1}) && !(Octile{0, 1} < Octile{1, 0}) && (Octile{0, 2} < Octile{3, 0}));
   IS((Octile{0, 408} < Octile{577, 0}) && !(Octile{577, 0} < Octile{0, 408}));
@@ -236,7 +282,8 @@ bool refuses(const std::string &folder, const std::string &scenario, const std::
   std::ofstream(folder + "/bad.map") << map;
   std::ofstream(folder + "/bad.patch") << "type patch\npatches 1\npatch 0\nheight 1\nwidth 2\nmap\n@.\n";
   try {
-    scenario.rfind("version 2", 0) == 0 ? read_dynamic(folder + "/bad.map.scen") : read_static(folder + "/bad.map.scen");
+    scenario.rfind("version 2", 0) == 0 ? read_dynamic(folder + "/bad.map.scen")
+                                        : read_static(folder + "/bad.map.scen");
   } catch (const std::runtime_error &) {
     return true;
   }
@@ -284,6 +331,7 @@ int main(int count, char **words) {
   test_segments();
   test_ends_on_double_corners();
   test_other_points();
+  test_scaled(1);
   test_lengths();
   test_charge();
   test_files(words[1]);

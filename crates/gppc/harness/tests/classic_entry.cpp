@@ -20,7 +20,8 @@ void find(State &state, xyLoc s, xyLoc g) {
   std::vector<int> cells = plain::shortest(state.ground, s.y * width + s.x, g.y * width + g.x);
   state.points.clear();
   for (int cell : cells) {
-    state.points.push_back({static_cast<std::int16_t>(cell % width), static_cast<std::int16_t>(cell / width)});
+    state.points.push_back(
+        {static_cast<std::int16_t>(cell % width), static_cast<std::int16_t>(cell / width)});
   }
   if (state.points.size() == 1 && !fault("single")) {
     state.points.clear();

@@ -29,7 +29,8 @@ void find(State &state, gppc_point start, gppc_point goal) {
   int width = state.map.width;
   std::vector<int> cells = plain::shortest(ground, start.y * width + start.x, goal.y * width + goal.x);
   for (int cell : cells) {
-    state.points.push_back({static_cast<std::uint16_t>(cell % width), static_cast<std::uint16_t>(cell / width)});
+    state.points.push_back(
+        {static_cast<std::uint16_t>(cell % width), static_cast<std::uint16_t>(cell / width)});
   }
   if (state.points.size() == 1 && !fault("single")) {
     state.points.push_back(state.points[0]);
