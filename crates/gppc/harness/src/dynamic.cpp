@@ -123,8 +123,7 @@ void run(const std::string &file, const Options &options, const Timeline &timeli
     answer(Library(file), timeline, index, answers);
   };
   Answers answers = run_task(task, options.seconds);
-  Reference reference = options.reference ? Reference::all : Reference::unstated;
-  report.add(timeline, answers, judge(Track::dynamic, reference, timeline, answers));
+  report.add(timeline, answers, judge(Track::dynamic, options.reference, timeline, answers));
 }
 
 int run_all(const Options &options) {

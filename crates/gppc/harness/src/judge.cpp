@@ -49,11 +49,6 @@ Shortest searched(Track track, const Map &map, const Query &query) {
   return shortest;
 }
 
-Shortest shortest_of(Track track, Reference reference, const Map &map, const Query &query) {
-  bool search = reference == Reference::all || (reference == Reference::unstated && !query.stated.known);
-  return search ? searched(track, map, query) : stated(query.stated);
-}
-
 bool differs(const Stated &stated, const Shortest &shortest) {
   return stated.known && (stated.none != shortest.none ||
                           (!stated.none && std::fabs(stated.length - shortest.length) > stated.tolerance));
@@ -104,10 +99,9 @@ void judge_path(Track track, const Map &map, const Query &query, const Answer &a
   }
 }
 
-Verdict judge_one(Track track, Reference reference, const Map &map, const Query &query,
-                  const Answer &answer) {
+Verdict judge_by(Track track, const Map &map, const Query &query, const Answer &answer,
+                 const Shortest &shortest) {
   Verdict verdict;
-  Shortest shortest = shortest_of(track, reference, map, query);
   verdict.shortest = !shortest.known || shortest.none ? -1 : shortest.length;
   verdict.misstated = differs(query.stated, shortest);
   if (!answer.complaint.empty()) {
@@ -127,17 +121,27 @@ Verdict judge_one(Track track, Reference reference, const Map &map, const Query 
   return verdict;
 }
 
+Verdict judge_one(Track track, bool search, const Map &map, const Query &query, const Answer &answer) {
+  if (!search) {
+    Verdict verdict = judge_by(track, map, query, answer, stated(query.stated));
+    // Lengths of some files are of other maps, or of other rules.
+    if (verdict.why.empty() || track == Track::any_angle) {
+      return verdict;
+    }
+  }
+  return judge_by(track, map, query, answer, searched(track, map, query));
+}
+
 } // namespace
 
-std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline,
-                           const Answers &answers) {
+std::vector<Verdict> judge(Track track, bool search_all, const Timeline &timeline, const Answers &answers) {
   std::vector<Verdict> verdicts;
   Replay replay(timeline);
   for (std::size_t i = 0; i < timeline.queries.size() && i < answers.answers.size(); ++i) {
     if (i > 0) {
       replay.apply(timeline.queries[i]);
     }
-    verdicts.push_back(judge_one(track, reference, replay.map(), timeline.queries[i], answers.answers[i]));
+    verdicts.push_back(judge_one(track, search_all, replay.map(), timeline.queries[i], answers.answers[i]));
   }
   return verdicts;
 }

@@ -31,12 +31,9 @@ struct Verdict {
   std::string why;
 };
 
-// Which lengths are searched for by the harness.
-enum class Reference { none, unstated, all };
-
-// Judges the answers to a timeline in order.
-std::vector<Verdict> judge(Track track, Reference reference, const Timeline &timeline,
-                           const Answers &answers);
+// Judges the answers to a timeline in order, by the lengths that are stated. If an answer over cells differs
+// from its own, or if `search_all`, a search of the harness decides.
+std::vector<Verdict> judge(Track track, bool search_all, const Timeline &timeline, const Answers &answers);
 
 // States the lengths of a timeline for which none are stated.
 void state_lengths(Track track, Timeline &timeline);

@@ -48,10 +48,11 @@ struct Digits {
     counting = std::max(counting, digits);
   }
 
-  // One unit of the last digit. Files leave out zeros at the end, so that no number tells alone.
+  // One unit of the last digit. Files leave out zeros at the end, so that no number tells alone. The sums of
+  // some were made with 1.41421356 for the root of 2.
   long double unit(long double number) const {
     int before = number >= 1 ? static_cast<int>(std::floor(std::log10(number))) + 1 : 1;
-    return std::pow(10.0L, -std::min(decimals, std::max(0, counting - before))) + 1e-12L * number;
+    return std::pow(10.0L, -std::min(decimals, std::max(0, counting - before))) + 2e-9L * number;
   }
 };
 

@@ -94,8 +94,7 @@ void run(const Options &options, const Timeline &timeline, Report &report) {
     answers.kilobytes = memory_at_most() - before;
   };
   Answers answers = run_task(task, options.seconds);
-  Reference reference = options.reference ? Reference::all : Reference::none;
-  report.add(timeline, answers, judge(TRACK, reference, timeline, answers));
+  report.add(timeline, answers, judge(TRACK, options.reference, timeline, answers));
 }
 
 // Lengths of any-angle paths are in tables of their own; those of scenario files are over eight directions.

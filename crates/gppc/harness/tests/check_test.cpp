@@ -272,7 +272,7 @@ void test_files(const std::string &folder) {
       IS(same(before.map(), after.map()) && a.start == b.start && a.goal == b.goal);
       IS(a.stated.none == b.stated.none && b.stated.known);
       IS(a.stated.none || std::fabs(a.stated.length - b.stated.length) <= b.stated.tolerance);
-      IS(b.stated.none || b.stated.tolerance < 1e-8L);
+      IS(b.stated.none || b.stated.tolerance < 1e-6L);
     }
   }
 }
