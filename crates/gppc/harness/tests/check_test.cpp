@@ -254,6 +254,47 @@ bool same(const Map &a, const Map &b) {
   return same;
 }
 
+// Kinds of changes and queries that generated timelines have to have.
+struct Seen {
+  int cells = 0, wholes = 0, overlaps = 0, idle = 0, blocked = 0, selves = 0, none = 0;
+};
+
+bool overlap(const Timeline &timeline, const Placed &a, const Placed &b) {
+  const Map &of_a = timeline.patches[a.patch], &of_b = timeline.patches[b.patch];
+  return a.at.x < b.at.x + of_b.width() && b.at.x < a.at.x + of_a.width() &&
+         a.at.y < b.at.y + of_b.height() && b.at.y < a.at.y + of_a.height();
+}
+
+void see(const Timeline &timeline, const Query &query, const Map &before, const Map &after, Seen &seen) {
+  for (const Placed &placed : query.changes) {
+    const Map &patch = timeline.patches[placed.patch];
+    seen.cells += patch.cells() == 1;
+    seen.wholes += patch.cells() == after.cells();
+    seen.overlaps += &placed != &query.changes[0] && overlap(timeline, placed, query.changes[0]);
+  }
+  seen.idle += !query.changes.empty() && same(before, after);
+  seen.blocked += !after.free(query.start) || !after.free(query.goal);
+  seen.selves += query.start == query.goal;
+  seen.none += query.stated.none && after.free(query.start) && after.free(query.goal);
+}
+
+void test_generated(std::uint64_t seed) {
+  Seen seen;
+  for (std::size_t number = 0; number < 14; ++number) {
+    Timeline timeline = generate_timeline(seed, number, 40);
+    state_lengths(Track::dynamic, timeline);
+    IS(timeline.queries.size() == 100);
+    Replay replay(timeline);
+    for (std::size_t i = 1; i < timeline.queries.size(); ++i) {
+      Map before = replay.map();
+      replay.apply(timeline.queries[i]);
+      see(timeline, timeline.queries[i], before, replay.map(), seen);
+    }
+  }
+  IS(seen.cells > 50 && seen.wholes > 10 && seen.overlaps > 50 && seen.idle > 10);
+  IS(seen.blocked > 50 && seen.selves > 20 && seen.none > 50);
+}
+
 // What is written is read again as it was.
 void test_files(const std::string &folder) {
   for (std::size_t number = 0; number < 14; ++number) {
@@ -334,6 +375,7 @@ int main(int count, char **words) {
   test_scaled(1);
   test_lengths();
   test_charge();
+  test_generated(1);
   test_files(words[1]);
   test_bad_files(words[1]);
   test_tolerance(words[1]);
