@@ -1,25 +1,35 @@
 #!/usr/bin/env bash
-# Builds the harness by g++ and by clang++ (with the sanitizers, if it has them), runs its tests, and then runs
-# the entries in a folder:
+# Builds the harness by g++ and by clang++ (with the sanitizers, if it has them), runs its tests, and then
+# runs the entries in a folder:
 #   run.sh [FOLDER] [--long] [--dynamic FOLDER] [--maps FOLDER] [--costs FOLDER]
-# FOLDER is as `cargo xtask gppc --into FOLDER` makes it. --dynamic has scenarios of version 2, --maps has maps of
-# MovingAI beside their scenarios, --costs has tables of any-angle lengths, `any-closed-NAME.csv`. Without --long
-# there are small maps alone; with it 10,000 queries on generated timelines, and every map.
+# FOLDER is as `cargo xtask gppc --into FOLDER` makes it. --dynamic has scenarios of version 2, --maps has maps
+# of MovingAI beside their scenarios, --costs has tables of any-angle lengths, `any-closed-NAME.csv`. Without
+# --long there are small maps alone; with it 10,000 queries on generated timelines, and every map.
 set -euo pipefail
-cd "$(dirname "$0")"
+
+fail() { echo "run.sh: $*" >&2 && exit 2; }
+folder() { cd "$1" && pwd; }
 
 entries='' dynamic='' maps='' costs='' long=
 while [ $# -gt 0 ]; do
     case $1 in
     --long) long=1 ;;
-    --dynamic) dynamic=$(cd "$2" && pwd) && shift ;;
-    --maps) maps=$(cd "$2" && pwd) && shift ;;
-    --costs) costs=$(cd "$2" && pwd) && shift ;;
-    -*) echo "run.sh: the option $1 is unknown" >&2 && exit 2 ;;
-    *) entries=$(cd "$1" && pwd) ;;
+    --dynamic | --maps | --costs)
+        [ $# -gt 1 ] || fail "$1 needs a folder"
+        folder=$(folder "$2")
+        case $1 in
+        --dynamic) dynamic=$folder ;;
+        --maps) maps=$folder ;;
+        --costs) costs=$folder ;;
+        esac
+        shift
+        ;;
+    -*) fail "the option $1 is unknown" ;;
+    *) entries=$(folder "$1") ;;
     esac
     shift
 done
+cd "$(dirname "$0")"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 seed=${SEED:-1}
@@ -115,29 +125,38 @@ program() {
     make -s OUT="$work/gcc" "$3=$at/Entry.cpp $at/libmediant.a" ENTRY_FLAGS="-I$at" "$work/gcc/$1"
 }
 
-# Scenarios beside their maps: all, or those of maps with a table of costs that are small.
+# Scenarios beside their maps: all, or those of small maps; if there are tables of costs, of maps that have one.
 scenarios() {
     local file name
     find "$maps" -name '*.map.scen' | sort | while read -r file; do
         name=$(basename "$file" .map.scen)
         if [ -n "$long" ]; then
             echo "$file"
-        elif [ -e "$costs/any-closed-$name.csv" ] && [ "$(wc -c <"${file%.scen}")" -lt 100000 ]; then
+        elif { [ -z "$costs" ] || [ -e "$costs/any-closed-$name.csv" ]; } && [ "$(wc -c <"${file%.scen}")" -lt 100000 ]; then
             echo "$file"
         fi
     done
+}
+
+# The scenarios in `files`; none is a mistake.
+take_scenarios() {
+    files=()
+    [ -n "$maps" ] || return 0
+    mapfile -t files < <(scenarios)
+    [ ${#files[@]} -gt 0 ] || fail "there is no scenario to run in $maps"
 }
 
 run_dynamic() {
     local files=() of_timelines=(--timelines 14 --side 80)
     [ -z "$dynamic" ] || mapfile -t files < <(find "$dynamic" -name '*.scen' | sort)
     [ -z "$long" ] || of_timelines=(--timelines 100)
-    "$work/gcc/gppc-dynamic" "$entries/dynamic/lib/libGPPCentry.so" "${files[@]}" "${of_timelines[@]}" --seed "$seed"
+    "$work/gcc/gppc-dynamic" "$entries/dynamic/lib/libGPPCentry.so" "${files[@]}" "${of_timelines[@]}" \
+        --seed "$seed"
 }
 
 run_classic() {
-    local files=() every=() generated=20
-    [ -z "$maps" ] || mapfile -t files < <(scenarios)
+    local every=() generated=20
+    take_scenarios
     [ -n "$long" ] || every=(--every 10)
     [ -z "$long" ] || generated=200
     "$work/gcc/gppc-classic" "${files[@]}" "${every[@]}" --generated "$generated" --side 60 --seed "$seed"
@@ -145,11 +164,12 @@ run_classic() {
 
 # Every 20th instance has its length in the tables.
 run_any_angle() {
-    local files=() generated=20 of_costs=()
-    [ -z "$maps" ] || mapfile -t files < <(scenarios)
+    local generated=20 of_costs=()
+    take_scenarios
     [ -z "$long" ] || generated=200
     [ -z "$costs" ] || of_costs=(--costs "$costs")
-    "$work/gcc/gppc-any-angle" "${files[@]}" "${of_costs[@]}" --every 20 --generated "$generated" --side 24 --seed "$seed"
+    "$work/gcc/gppc-any-angle" "${files[@]}" "${of_costs[@]}" --every 20 --generated "$generated" --side 24 \
+        --seed "$seed"
 }
 
 has g++ || exit 1
@@ -161,13 +181,19 @@ if has clang++; then
 fi
 echo 'The harness finds what is wrong, and nothing else.'
 [ -n "$entries" ] || exit 0
-if [ -e "$entries/dynamic/lib/libGPPCentry.so" ]; then run_dynamic; else echo 'dynamic: no entry, left out'; fi
+if [ -e "$entries/dynamic/lib/libGPPCentry.so" ]; then
+    run_dynamic
+else
+    echo 'dynamic: no entry, left out'
+fi
 for track in classic any-angle; do
     if [ ! -e "$entries/$track/Entry.cpp" ]; then
         echo "$track: no entry, left out"
     elif [ "$track" = classic ]; then
-        program gppc-classic classic CLASSIC_ENTRY && run_classic
+        program gppc-classic classic CLASSIC_ENTRY
+        run_classic
     else
-        program gppc-any-angle any-angle ANY_ANGLE_ENTRY && run_any_angle
+        program gppc-any-angle any-angle ANY_ANGLE_ENTRY
+        run_any_angle
     fi
 done
