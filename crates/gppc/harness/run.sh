@@ -128,7 +128,7 @@ program() {
 # Scenarios beside their maps: all, or those of small maps; if there are tables of costs, of maps that have one.
 scenarios() {
     local file name
-    find "$maps" -name '*.map.scen' | sort | while read -r file; do
+    find "$maps/" -name '*.map.scen' | sort | while read -r file; do
         name=$(basename "$file" .map.scen)
         if [ -n "$long" ]; then
             echo "$file"
@@ -148,7 +148,7 @@ take_scenarios() {
 
 run_dynamic() {
     local files=() of_timelines=(--timelines 14 --side 80)
-    [ -z "$dynamic" ] || mapfile -t files < <(find "$dynamic" -name '*.scen' | sort)
+    [ -z "$dynamic" ] || mapfile -t files < <(find "$dynamic/" -name '*.scen' | sort)
     [ -z "$long" ] || of_timelines=(--timelines 100)
     "$work/gcc/gppc-dynamic" "$entries/dynamic/lib/libGPPCentry.so" "${files[@]}" "${of_timelines[@]}" \
         --seed "$seed"
