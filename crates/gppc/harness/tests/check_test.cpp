@@ -119,7 +119,8 @@ void test_segments() {
   POINTS(map, {{2, 3}, {3, 4}, {2, 2}}, "");
   POINTS(map, {{1, 3}, {3, 4}, {2, 2}}, "");
   POINTS(map, {{4, 3}, {4, 4}, {3, 4}}, "");
-  POINTS(map, {{0, 0}, {9, 0}, {4, 0}}, "outside the map");
+  POINTS(map, {{0, 0}, {5, 0}, {4, 0}}, "");
+  POINTS(map, {{0, 0}, {6, 0}, {4, 0}}, "outside the map");
   POINTS(map, {{0, 0}}, "one point alone");
   POINTS(map, {{0, 0}, {0, 0}}, "shorter than 0.01");
   POINTS(map, {{1, 1}, {0, 0}}, "cell of an end is blocked");
