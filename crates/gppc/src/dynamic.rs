@@ -1,8 +1,7 @@
 //! The dynamic track: shortest paths over eight directions, corners never cut, on a map that changes between
 //! queries.
 //!
-//! What the harness charges is the time of its calls, and a change is charged to the query after it. So the
-//! engine is one that prepares next to nothing and whose preparation follows an edit: block-based JPS. Its dead
+//! The harness charges the time of its calls, and a change to the query after it. So the engine is one that prepares next to nothing and whose preparation follows an edit: block-based JPS. Its dead
 //! ends make queries quicker and changes slower. They pay where many queries come between two changes: so it
 //! has them until it sees that few do.
 
@@ -164,7 +163,7 @@ pub unsafe extern "C" fn gppc_map_change(data: *mut c_void, changes: *const Patc
     // SAFETY: the caller promises it.
     let (entry, changes) =
         unsafe { (&mut *data.cast::<Entry>(), slice::from_raw_parts(changes, count as usize)) };
-    // What cannot be followed is made anew.
+    // A change that cannot be followed makes all anew.
     if !matches!(catch_unwind(AssertUnwindSafe(|| entry.change(changes))), Ok(Ok(()))) {
         // SAFETY: as above.
         if let Ok(Ok(anew)) = catch_unwind(|| unsafe { Entry::new(entry.map) }) {
