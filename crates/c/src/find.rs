@@ -19,8 +19,8 @@ use crate::{
     words,
 };
 
-/// A path from any of several starts to any of several goals, in one call. Space and engine are chosen by what
-/// is asked, and kept with the map for the next call. `words` has parameters of all kinds, as in
+/// A path from any of several starts to any of several goals, in one call. Space and engine are chosen by
+/// what is asked, and kept with the map for the next call. `words` has parameters of all kinds, as in
 /// `"k=any gap=closed nearest"`; null is none. The path is a batch with this path alone, as that of
 /// `mediant_space_path`. For many paths prepare an index, and ask a planner.
 ///
