@@ -667,8 +667,8 @@ mediant_code mediant_map_edit_cells(mediant_map map,
                                     size_t count,
                                     mediant_map *edited);
 
-// This map with a cost a unit of length for each cell, row by row: a number of 0 or more; those of blocked
-// cells do not matter.
+// This map with a cost a unit of length for each cell, row by row: a positive number; those of blocked cells
+// do not matter.
 //
 // Required:
 // `costs` leads to a number for each cell; `priced` leads to a handle's memory.
@@ -807,7 +807,7 @@ mediant_code mediant_planner_path(mediant_planner planner,
                                   double *length);
 
 // The points of the path that the planner found last: of `mediant_planner_path`, `_find`, `_step`,
-// `_find_except`.
+// `_find_except`. Any query forgets it first.
 //
 // Required:
 // `points` leads to memory for `room` points; `count` leads to memory for a number.
@@ -894,7 +894,7 @@ mediant_code mediant_planner_path_to(mediant_planner planner,
                                      size_t *count);
 
 // Continues on another index of the same engine and motion, such as a repaired one, with the same scratch
-// memory.
+// memory. The last path and the search that was begun are forgotten.
 mediant_code mediant_planner_follow(mediant_planner planner,
                                     mediant_index index);
 
@@ -969,7 +969,8 @@ mediant_code mediant_space_connected(mediant_space space,
                                      mediant_point to,
                                      int32_t *connected);
 
-// Whether the straight segment between two points obeys the rules of motion: 1 or 0.
+// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for itself:
+// a closed gap that it passes is in its way, one at which it begins or ends is not.
 //
 // Required:
 // `seen` leads to memory for a number.

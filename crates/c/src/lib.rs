@@ -36,3 +36,5 @@ mod words;
 
 #[cfg(test)]
 mod header;
+#[cfg(test)]
+mod mistakes;

@@ -256,8 +256,8 @@ pub unsafe extern "C" fn mediant_map_edit_cells(
     })
 }
 
-/// This map with a cost a unit of length for each cell, row by row: a number of 0 or more; those of blocked
-/// cells do not matter.
+/// This map with a cost a unit of length for each cell, row by row: a positive number; those of blocked cells
+/// do not matter.
 ///
 /// # Safety
 /// `costs` leads to a number for each cell; `priced` leads to a handle's memory.
