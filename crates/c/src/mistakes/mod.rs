@@ -51,13 +51,13 @@ fn number(name: &str) -> Option<u64> {
 const LENGTH: u64 = 400;
 
 /// Runs a program, and returns the numbers of its calls and of those that did what they should.
-fn run(seed: u64, is_alone: bool) -> (u64, u64) {
+fn run(seed: u64, is_alone: bool, length: u64) -> (u64, u64) {
     if env::var_os("MEDIANT_SAY").is_some() {
         eprintln!("MEDIANT_SEED={seed}");
     }
     let mut world = World::new(seed, is_alone);
     let work = catch_unwind(AssertUnwindSafe(|| {
-        while world.calls < LENGTH {
+        while world.calls < length {
             step(&mut world);
             if is_alone {
                 assert_eq!(mediant_objects(), world.held(), "objects");
@@ -101,7 +101,7 @@ fn step(world: &mut World) {
 fn programs(first: u64, calls: u64, is_alone: bool) -> (u64, u64) {
     let (mut made, mut done, mut seed) = (0, 0, first);
     while made < calls {
-        let (of_program, right) = run(seed, is_alone);
+        let (of_program, right) = run(seed, is_alone, LENGTH.min(calls));
         (made, done, seed) = (made + of_program, done + right, seed + 1);
     }
     (made, done)
