@@ -421,11 +421,14 @@ mediant_code mediant_field_flow(mediant_field field,
                                 float *flow,
                                 size_t room);
 
-// The distance of a point; infinity where no path leads.
+// The distance of a point; infinity where no path leads. Threads that ask one field wait for one another, a
+// tenth of a microsecond each time: for many vertices `mediant_field_distances` has them all.
 //
 // Required:
 // `distance` leads to memory for a number.
-mediant_code mediant_field_get(mediant_field field, mediant_point at, double *distance);
+mediant_code mediant_field_get(mediant_field field,
+                               mediant_point at,
+                               double *distance);
 
 // The direction in which the shortest path leaves a point; 0, 0 at a source and where no path leads.
 //
@@ -641,11 +644,14 @@ mediant_code mediant_map_size(mediant_map map, uint32_t *width, uint32_t *height
 // `blocked` leads to memory for `room` bytes.
 mediant_code mediant_map_cells(mediant_map map, uint8_t *blocked, size_t room);
 
-// Whether a cell is blocked: 1 or 0. All outside the map is.
+// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another, a
+// tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
 //
 // Required:
 // `blocked` leads to memory for a number.
-mediant_code mediant_map_is_blocked(mediant_map map, mediant_cell cell, int32_t *blocked);
+mediant_code mediant_map_is_blocked(mediant_map map,
+                                    mediant_cell cell,
+                                    int32_t *blocked);
 
 // This map with other cells in a rectangle: `blocked` has a byte for each of its cells, row by row, 0 for
 // free; those beyond the map are left out. The work follows the rectangle, and the maps share the rest.
