@@ -400,6 +400,10 @@ fn library_calls(world: &mut World) {
 }
 
 fn open(world: &mut World) {
+    // Miri has no disk.
+    if cfg!(miri) {
+        return;
+    }
     let paths = ["/none/at/all.map", "", "/", "Cargo.toml", "src"];
     let path = world.rng.pick(&paths).copied().filter(|_| world.rng.below(20) > 0);
     let (_path, at) = world.text(path);
