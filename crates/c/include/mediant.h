@@ -431,11 +431,14 @@ mediant_code mediant_field_flow(mediant_field field,
                                 float *flow,
                                 size_t room);
 
-// The distance of a point; infinity where no path leads.
+// The distance of a point; infinity where no path leads. Threads that ask one field wait for one another, a
+// tenth of a microsecond each time: for many vertices `mediant_field_distances` has them all.
 //
 // Required:
 // `distance` leads to memory for a number.
-mediant_code mediant_field_get(mediant_field field, mediant_point at, double *distance);
+mediant_code mediant_field_get(mediant_field field,
+                               mediant_point at,
+                               double *distance);
 
 // The direction in which the shortest path leaves a point; 0, 0 at a source and where no path leads.
 //
@@ -669,11 +672,14 @@ mediant_code mediant_map_size(mediant_map map, uint32_t *width, uint32_t *height
 // `blocked` leads to memory for `room` bytes.
 mediant_code mediant_map_cells(mediant_map map, uint8_t *blocked, size_t room);
 
-// Whether a cell is blocked: 1 or 0. All outside the map is.
+// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another, a
+// tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
 //
 // Required:
 // `blocked` leads to memory for a number.
-mediant_code mediant_map_is_blocked(mediant_map map, mediant_cell cell, int32_t *blocked);
+mediant_code mediant_map_is_blocked(mediant_map map,
+                                    mediant_cell cell,
+                                    int32_t *blocked);
 
 // This map with other cells in a rectangle: `blocked` has a byte for each of its cells, row by row, 0 for
 // free; those beyond the map are left out. The work follows the rectangle, and the maps share the rest.
@@ -695,8 +701,8 @@ mediant_code mediant_map_edit_cells(mediant_map map,
                                     size_t count,
                                     mediant_map *edited);
 
-// This map with a cost a unit of length for each cell, row by row: a number of 0 or more; those of blocked
-// cells do not matter.
+// This map with a cost a unit of length for each cell, row by row: a positive number; those of blocked cells
+// do not matter.
 //
 // Required:
 // `costs` leads to a number for each cell; `priced` leads to a handle's memory.
@@ -835,7 +841,7 @@ mediant_code mediant_planner_path(mediant_planner planner,
                                   double *length);
 
 // The points of the path that the planner found last: of `mediant_planner_path`, `_find`, `_step`,
-// `_find_except`.
+// `_find_except`. Any query forgets it first.
 //
 // Required:
 // `points` leads to memory for `room` points; `count` leads to memory for a number.
@@ -922,7 +928,7 @@ mediant_code mediant_planner_path_to(mediant_planner planner,
                                      size_t *count);
 
 // Continues on another index of the same engine and motion, such as a repaired one, with the same scratch
-// memory.
+// memory. The last path and the search that was begun are forgotten.
 mediant_code mediant_planner_follow(mediant_planner planner,
                                     mediant_index index);
 
@@ -997,7 +1003,8 @@ mediant_code mediant_space_connected(mediant_space space,
                                      mediant_point to,
                                      int32_t *connected);
 
-// Whether the straight segment between two points obeys the rules of motion: 1 or 0.
+// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for itself:
+// a closed gap that it passes is in its way, one at which it begins or ends is not.
 //
 // Required:
 // `seen` leads to memory for a number.

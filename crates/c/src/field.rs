@@ -161,7 +161,8 @@ pub unsafe extern "C" fn mediant_field_flow(field: FieldHandle, flow: *mut f32, 
     })
 }
 
-/// The distance of a point; infinity where no path leads.
+/// The distance of a point; infinity where no path leads. Threads that ask one field wait for one another, a
+/// tenth of a microsecond each time: for many vertices `mediant_field_distances` has them all.
 ///
 /// # Safety
 /// `distance` leads to memory for a number.

@@ -39,3 +39,5 @@ mod words;
 mod calls;
 #[cfg(test)]
 mod header;
+#[cfg(test)]
+mod mistakes;

@@ -54,6 +54,7 @@ pub(crate) unsafe fn text<'a>(name: &str, text: *const c_char) -> Result<Option<
     text.to_str().map(Some).map_err(|_| Failure::argument(name, "it is not UTF-8"))
 }
 
+#[inline]
 fn check<T>(name: &str, data: *const T, count: usize) -> Result<(), Failure> {
     if data.is_null() {
         return Err(Failure::argument(name, "it is null"));
@@ -72,6 +73,7 @@ fn check<T>(name: &str, data: *const T, count: usize) -> Result<(), Failure> {
 /// # Safety
 /// A pointer that is neither null nor misaligned leads to `count` values, which do not change while the
 /// result is used.
+#[inline]
 pub(crate) unsafe fn array<'a, T: Plain>(
     name: &str,
     data: *const T,
@@ -99,6 +101,7 @@ pub(crate) unsafe fn value<T: Copy>(name: &str, data: *const T) -> Result<T, Fai
 ///
 /// # Safety
 /// A pointer that is neither null nor misaligned leads to memory of the caller's for one value.
+#[inline]
 pub(crate) unsafe fn put<T>(name: &str, place: *mut T, value: T) -> Result<(), Failure> {
     check(name, place, 1)?;
     // SAFETY: it is not null and aligned; that it may be written, the caller promises.
@@ -107,11 +110,13 @@ pub(crate) unsafe fn put<T>(name: &str, place: *mut T, value: T) -> Result<(), F
 }
 
 /// Checks the place of a result before the work: so a call without one does none.
+#[inline]
 pub(crate) fn check_place<T>(name: &str, place: *mut T) -> Result<(), Failure> {
     check(name, place, 1)
 }
 
 /// As [`check_place`], for an array with room for so many values.
+#[inline]
 pub(crate) fn check_room<T>(name: &str, data: *mut T, room: usize) -> Result<(), Failure> {
     if room == 0 { Ok(()) } else { check(name, data, room) }
 }
@@ -120,6 +125,7 @@ pub(crate) fn check_room<T>(name: &str, data: *mut T, room: usize) -> Result<(),
 ///
 /// # Safety
 /// A pointer that is neither null nor misaligned leads to memory of the caller's for `room` values.
+#[inline]
 pub(crate) unsafe fn fill<T: Plain>(
     name: &str,
     data: *mut T,

@@ -6,7 +6,7 @@ use std::ffi::c_char;
 
 use library::{
     Answer as InnerAnswer, Error, Exceptions, Goals, Guarantee, Index, Path, Planner, PointEnds, Query,
-    Stopped,
+    Stopped, errors::QueryError,
 };
 
 use crate::{
@@ -36,8 +36,9 @@ pub(crate) struct State {
     planner: Planner,
     /// The path of the last answer.
     path: Option<Path>,
-    /// That of the search that was begun.
-    watch: Watch,
+    /// The watcher of the search that was begun, until another query forgets it. The library's planner may
+    /// have the search of any query, with a watcher that is gone when that query has ended.
+    begun: Option<Watch>,
 }
 
 impl Held for State {
@@ -59,6 +60,18 @@ fn with<R>(
 }
 
 impl State {
+    /// The planner, for a query that forgets the last path and the search that was begun.
+    #[inline]
+    fn ask(&mut self) -> &mut Planner {
+        (self.path, self.begun) = (None, None);
+        &mut self.planner
+    }
+
+    /// The planner, if it has a search that was begun.
+    fn searching(&mut self) -> Option<&mut Planner> {
+        self.begun.is_some().then_some(&mut self.planner)
+    }
+
     /// The answer as C has it; its path is kept.
     fn told(&mut self, answer: InnerAnswer, guarantee: Guarantee, watch: &Watch) -> Answer {
         let stopped_by = watch.limit_met(answer.stopped_by()).into();
@@ -81,7 +94,7 @@ pub unsafe extern "C" fn mediant_planner_new(index: IndexHandle, planner: *mut P
     call(|| {
         memory::check_place("planner", planner)?;
         let inner = Index::handles().get(index.id)?.try_planner()?;
-        let id = State::handles().keep(State { planner: inner, path: None, watch: Watch::default() })?;
+        let id = State::handles().keep(State { planner: inner, path: None, begun: None })?;
         // SAFETY: the caller promises it.
         unsafe { memory::put("planner", planner, PlannerHandle { id }) }
     })
@@ -113,20 +126,20 @@ pub unsafe extern "C" fn mediant_planner_path(
         let ends = PointEnds::new(start.inner("start")?, goal.inner("goal")?);
         answer::check_places(points, room, count)?;
         memory::check_place("length", length)?;
-        with(planner, |State { planner, path, .. }| {
-            *path = None;
-            *path = planner.find(ends)?.into_path();
+        with(planner, |state| {
+            state.path = state.ask().find(ends)?.into_path();
+            let path = state.path.as_ref();
             // SAFETY: the caller promises it.
             unsafe {
-                answer::write(path.as_ref(), (points, room), count)?;
-                memory::put("length", length, path.as_ref().map_or(f64::INFINITY, Path::cost))
+                answer::write(path, (points, room), count)?;
+                memory::put("length", length, path.map_or(f64::INFINITY, Path::cost))
             }
         })
     })
 }
 
 /// The points of the path that the planner found last: of `mediant_planner_path`, `_find`, `_step`,
-/// `_find_except`.
+/// `_find_except`. Any query forgets it first.
 ///
 /// # Safety
 /// `points` leads to memory for `room` points; `count` leads to memory for a number.
@@ -188,8 +201,7 @@ pub unsafe extern "C" fn mediant_planner_find(
         // SAFETY: as above.
         let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, &watch) }?;
         let told = with(planner, |state| {
-            state.path = None;
-            let found = state.planner.find(query).map_err(|error| watch.failure(error))?;
+            let found = state.ask().find(query).map_err(|error| watch.failure(error))?;
             let guarantee = state.planner.guarantee();
             Ok(state.told(found, guarantee, &watch))
         })?;
@@ -212,7 +224,7 @@ pub unsafe extern "C" fn mediant_planner_distance(
     call(|| {
         let ends = PointEnds::new(start.inner("start")?, goal.inner("goal")?);
         memory::check_place("length", length)?;
-        let distance = with(planner, |state| Ok(state.planner.distance(ends)?))?;
+        let distance = with(planner, |state| Ok(state.ask().distance(ends)?))?;
         // SAFETY: the caller promises it.
         unsafe { memory::put("length", length, distance.unwrap_or(f64::INFINITY)) }
     })
@@ -239,9 +251,8 @@ pub unsafe extern "C" fn mediant_planner_begin(
         // SAFETY: as above.
         let query = unsafe { query((starts, start_count), (goals, goal_count), wishes, &watch) }?;
         with(planner, |state| {
-            state.path = None;
-            state.planner.begin(query).map_err(|error| watch.failure(error))?;
-            state.watch = watch;
+            state.ask().begin(query).map_err(|error| watch.failure(error))?;
+            state.begun = Some(watch);
             Ok(())
         })
     })
@@ -263,7 +274,7 @@ pub unsafe extern "C" fn mediant_planner_step(
         memory::check_place("done", done)?;
         memory::check_place("answer", answer)?;
         let told = with(planner, |state| {
-            let watch = state.watch.clone();
+            let watch = state.begun.clone().ok_or(QueryError::NotBegun)?;
             let found = state.planner.step(expansions).map_err(|error| watch.failure(error))?;
             let guarantee = state.planner.guarantee();
             Ok(found.map(|found| state.told(found, guarantee, &watch)))
@@ -291,8 +302,10 @@ pub unsafe extern "C" fn mediant_planner_progress(
 ) -> Code {
     call(|| {
         memory::check_place("lower_bound", lower_bound)?;
-        let (so_far, least) =
-            with(planner, |State { planner, .. }| Ok((planner.expansions(), planner.lower_bound())))?;
+        let (so_far, least) = with(planner, |state| {
+            let begun = state.searching();
+            Ok(begun.map_or((0, 0.0), |planner| (planner.expansions(), planner.lower_bound())))
+        })?;
         // SAFETY: the caller promises it.
         unsafe {
             memory::put("expansions", expansions, so_far)?;
@@ -315,7 +328,7 @@ pub unsafe extern "C" fn mediant_planner_best(
 ) -> Code {
     call(|| {
         answer::check_places(points, room, count)?;
-        let best = with(planner, |state| Ok(state.planner.best()))?;
+        let best = with(planner, |state| Ok(state.searching().and_then(Planner::best)))?;
         // SAFETY: the caller promises it.
         unsafe { answer::write(best.as_ref(), (points, room), count) }
     })
@@ -336,22 +349,19 @@ pub unsafe extern "C" fn mediant_planner_path_to(
     call(|| {
         let at = at.inner("at")?;
         answer::check_places(points, room, count)?;
-        let path = with(planner, |state| Ok(state.planner.path_to(at)))?;
+        let path = with(planner, |state| Ok(state.searching().and_then(|planner| planner.path_to(at))))?;
         // SAFETY: the caller promises it.
         unsafe { answer::write(path.as_ref(), (points, room), count) }
     })
 }
 
 /// Continues on another index of the same engine and motion, such as a repaired one, with the same scratch
-/// memory.
+/// memory. The last path and the search that was begun are forgotten.
 #[unsafe(no_mangle)]
 pub extern "C" fn mediant_planner_follow(planner: PlannerHandle, index: IndexHandle) -> Code {
     call(|| {
         let index = Index::handles().get(index.id)?;
-        with(planner, |state| {
-            state.path = None;
-            Ok(state.planner.follow(&index)?)
-        })
+        with(planner, |state| Ok(state.ask().follow(&index)?))
     })
 }
 
@@ -389,7 +399,7 @@ pub unsafe extern "C" fn mediant_planner_distances(
         memory::check_place("count", count)?;
         memory::check_room("lengths", lengths, room)?;
         let (start, goals) = (start.inner("start")?, Goals::handles().get(goals.id)?);
-        let found = with(planner, |state| Ok(state.planner.distances(start, &goals)?))?;
+        let found = with(planner, |state| Ok(state.ask().distances(start, &goals)?))?;
         // SAFETY: the caller promises it.
         unsafe {
             memory::put("count", count, found.len())?;
@@ -414,7 +424,7 @@ pub unsafe extern "C" fn mediant_planner_nearest(
     call(|| {
         memory::check_place("length", length)?;
         let (start, goals) = (start.inner("start")?, Goals::handles().get(goals.id)?);
-        let nearest = with(planner, |state| Ok(state.planner.nearest(start, &goals)?))?;
+        let nearest = with(planner, |state| Ok(state.ask().nearest(start, &goals)?))?;
         let (number, cells) = nearest.unwrap_or((0, f64::INFINITY));
         // SAFETY: the caller promises it.
         unsafe {
@@ -471,8 +481,7 @@ pub unsafe extern "C" fn mediant_planner_find_except(
         };
         let first = query.starts().first().copied().unwrap_or_default();
         let told = with(planner, |state| {
-            state.path = None;
-            let (found, guarantee) = match state.planner.find_except(query, &except) {
+            let (found, guarantee) = match state.ask().find_except(query, &except) {
                 Err(Error::Stopped { by, .. }) => {
                     (InnerAnswer::Stopped(Stopped::before_search(by, first)), Guarantee::Suboptimal)
                 }

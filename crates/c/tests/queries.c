@@ -141,6 +141,17 @@ void test_search(void) {
   OK(mediant_planner_points(planner, points, COUNT(points), &count));
   IS(count == answer.point_count && same(points[count - 1], goal));
 
+  // Any other query forgets a search, one with wishes too, and is none itself.
+  OK(mediant_planner_begin(planner, &start, 1, &goal, 1, NULL, NULL));
+  OK(mediant_planner_find(planner, &start, 1, &goal, 1, "max_cost=20", NULL, &answer));
+  FAILS(mediant_planner_step(planner, 1, &done, &answer), MEDIANT_CODE_NOT_BEGUN, "begin");
+  OK(mediant_planner_best(planner, points, COUNT(points), &count));
+  IS(count == 0);
+  OK(mediant_planner_path_to(planner, start, points, COUNT(points), &count));
+  IS(count == 0);
+  OK(mediant_planner_progress(planner, &expansions, &bound));
+  IS(expansions == 0 && bound == 0);
+
   // A search that is begun anew, with a limit.
   OK(mediant_planner_begin(planner, &start, 1, &goal, 1, "max_expansions=3", NULL));
   OK(mediant_planner_points(planner, points, COUNT(points), &count));
