@@ -11,6 +11,10 @@ use crate::{
 /// in registers meanwhile.
 #[doc(hidden)]
 pub fn transpose(square: &mut [u64; 64]) {
+    // As in the midst of what is blocked.
+    if matches!(square[0], 0 | u64::MAX) && square.iter().all(|word| *word == square[0]) {
+        return;
+    }
     for y in 0..8 {
         let words = exchanged([0, 1, 2, 3, 4, 5, 6, 7].map(|i| square[y + 8 * i]), 8);
         for (i, word) in words.into_iter().enumerate() {
