@@ -7,22 +7,45 @@ use crate::{
 
 /// Exchanges rows and columns: bit x of word y becomes bit y of word x.
 ///
-/// Halves, quarters, … of the square are exchanged across its diagonal.
+/// Halves, quarters, … of the square are exchanged across its diagonal, three sizes at once: eight words lie
+/// in registers meanwhile.
 #[doc(hidden)]
-pub const fn transpose(square: &mut [u64; 64]) {
-    let (mut width, mut low) = (32, u32::MAX as u64);
-    while width > 0 {
-        let mut y = 0;
-        while y < 64 {
-            let other = y + width;
-            let differ = (square[y] >> width ^ square[other]) & low;
-            square[y] ^= differ << width;
-            square[other] ^= differ;
-            // The next y without the bit `width`.
-            y = (other + 1) & !width;
+pub fn transpose(square: &mut [u64; 64]) {
+    // As in the midst of what is blocked.
+    if matches!(square[0], 0 | u64::MAX) && square.iter().all(|word| *word == square[0]) {
+        return;
+    }
+    for y in 0..8 {
+        let words = exchanged([0, 1, 2, 3, 4, 5, 6, 7].map(|i| square[y + 8 * i]), 8);
+        for (i, word) in words.into_iter().enumerate() {
+            square[y + 8 * i] = word;
         }
-        width /= 2;
-        low ^= low << width;
+    }
+    for words in square.as_chunks_mut().0 {
+        *words = exchanged(*words, 1);
+    }
+}
+
+/// Exchanges parts of a square, of which eight words are rows `distance` apart.
+#[inline(always)]
+fn exchanged(mut words: [u64; 8], distance: usize) -> [u64; 8] {
+    exchange::<4>(&mut words, 4 * distance);
+    exchange::<2>(&mut words, 2 * distance);
+    exchange::<1>(&mut words, distance);
+    words
+}
+
+/// Exchanges the upper bits, as many as `width`, of the words in each group of `BY` with the lower ones of
+/// those in the next group.
+#[inline(always)]
+fn exchange<const BY: usize>(words: &mut [u64; 8], width: usize) {
+    let low = u64::MAX / ((1 << width) + 1);
+    for i in 0..4 {
+        // The i-th number without the bit `BY`.
+        let y = i & (BY - 1) | (i & !(BY - 1)) << 1;
+        let differ = (words[y] >> width ^ words[y + BY]) & low;
+        words[y] ^= differ << width;
+        words[y + BY] ^= differ;
     }
 }
 

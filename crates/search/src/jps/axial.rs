@@ -19,7 +19,7 @@ use mediant_grid::{
 };
 use mediant_moves::FiniteK;
 
-use super::{DURING, zone::Zone};
+use super::{DURING, cell_rows::CellRows, zone::Zone};
 
 mod answers;
 
@@ -72,7 +72,8 @@ impl JumpPointRule {
     /// The ends among 64 vertices. `cells(ahead, row)` says which of the cells are blocked that lie `ahead`
     /// steps further on and `row` rows beside. At corners the cells of a vertex are the two beside the next
     /// step of the jump, in rows −1 and 0.
-    fn ends(self, cells: impl Fn(i32, i32) -> u64) -> JumpStops {
+    #[inline(always)]
+    pub(super) fn ends(self, cells: impl Fn(i32, i32) -> u64) -> JumpStops {
         match self {
             Self::Behind => {
                 let opens = |row| cells(-1, row) & !cells(0, row);
@@ -119,6 +120,29 @@ impl JumpPointRule {
     }
 }
 
+/// The cells of the vertices of a line in the order of a jump, with those of one word before and one after.
+fn cells_of_line<P: Placement>(
+    matrix: &BitMatrix,
+    line: i32,
+    (length, forward): (u32, bool),
+    cells: &mut Vec<u64>,
+) {
+    cells.clear();
+    // No line follows the frame, and no jump asks for one.
+    let (line, last_word) = (line.min(matrix.height() as i32), length as i32 / 64 + 1);
+    if forward {
+        let before = matrix.index(-64, line).0 as usize / 64;
+        cells.extend(matrix.words()[before..].iter().take(last_word as usize + 2));
+        // The last word may hold no vertex.
+        cells.resize(last_word as usize + 2, !0);
+    } else {
+        // The cell of the first vertex is the last one of 64.
+        let first = matrix.index(length as i32 - 1 + P::cell(-1, 0) - 63, line);
+        let word = |word: i32| load(matrix.words(), first.offset(-64 * word)).reverse_bits();
+        cells.extend((-1..=last_word).map(word));
+    }
+}
+
 /// The vertices where axial jumps in the four directions end, for k ≤ 3.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct AxialStops {
@@ -149,7 +173,7 @@ pub(super) struct JumpPoint {
 }
 
 /// Whether the jumps of a direction go along a column, and whether to larger coordinates.
-const fn direction(quarter: usize) -> (bool, bool) {
+pub(super) const fn direction(quarter: usize) -> (bool, bool) {
     (quarter.is_multiple_of(2), quarter < 2)
 }
 
@@ -273,13 +297,19 @@ impl AxialStops {
                 if vertical { (grid.columns(), height, width) } else { (grid.rows(), width, height) };
             let first = 64 * words.len() as i64;
             let per_line = length / 64 + 1;
-            for line in 0..lines as i32 {
+            let mut cells = [const { Vec::new() }; 3];
+            for line in -2..lines as i32 {
+                cells.rotate_left(1);
+                cells_of_line::<P>(matrix, line + 1, (length, forward), &mut cells[2]);
+                if line < 0 {
+                    continue;
+                }
                 interrupt.check(DURING)?;
-                words.extend((0..per_line as i32).map(|word| {
-                    let u = if forward { 64 * word } else { length as i32 - 1 - 64 * word };
-                    let JumpStops { jump, dead } = rule.ends_from::<P>(matrix, (u, line), forward);
+                let around = CellRows::of([0, 1, 2].map(|i| &*cells[i])).words();
+                words.extend((0..per_line).zip(around).map(|(word, around)| {
+                    let JumpStops { jump, dead } = rule.ends(|ahead, row| around.at((ahead, row)));
                     // Bits beyond the end of the line are no part of it.
-                    let dead = dead | u64::MAX.checked_shl(length - 64 * word as u32).unwrap_or(0);
+                    let dead = dead | u64::MAX.checked_shl(length - 64 * word).unwrap_or(0);
                     [jump | dead, dead]
                 }));
             }
@@ -356,6 +386,27 @@ impl AxialStops {
             let bits = if dead_ends_alone { other & !one } else { one ^ other };
             line.for_each(bits, |at, bit| visit(JumpPoint { at, quarter, is_dead_end: other & bit != 0 }));
         });
+    }
+
+    /// Calls `visit` with the jump points of a direction.
+    pub(super) fn for_each_jump_point_of_map(&self, quarter: usize, mut visit: impl FnMut(JumpPoint)) {
+        let (plane, (is_vertical, is_forward)) = (&self.planes[quarter], direction(quarter));
+        let per_line = if is_vertical { plane.per_x } else { plane.per_y } as usize / 64;
+        let length = plane.origin - 64 * plane.words.0 as i64;
+        let (start, sign) = if is_forward { (0, 1) } else { (length as i32, -1) };
+        let lines = self.words[plane.words.0..plane.words.1].chunks_exact(per_line);
+        for (line, words) in (0..).zip(lines) {
+            for (&[one, other], first) in words.iter().zip((0..).step_by(64)) {
+                // Beyond the end of the line there are none.
+                let mut left = one ^ other;
+                while left != 0 {
+                    let bit = left.trailing_zeros();
+                    let at = vertex_of(is_vertical, (start + sign * (first + bit as i32), line));
+                    visit(JumpPoint { at, quarter, is_dead_end: other >> bit & 1 == 1 });
+                    left &= left - 1;
+                }
+            }
+        }
     }
 
     /// A vertex of the map as jumps in a direction find it in these planes, and in others of the same size.

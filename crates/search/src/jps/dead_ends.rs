@@ -124,6 +124,10 @@ impl DeadEndRows {
         self.rows[quarter][at.y as usize * self.per_row + at.x as usize / 64] |= 1 << (at.x % 64);
     }
 
+    pub(super) fn remove(&mut self, at: Vertex, quarter: usize) {
+        self.rows[quarter][at.y as usize * self.per_row + at.x as usize / 64] &= !(1 << (at.x % 64));
+    }
+
     /// Whether there are none.
     pub(super) const fn is_empty(&self) -> bool {
         self.per_row == 0

@@ -18,7 +18,7 @@
 use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, VersionEdit, Versioned, Vertex};
 use mediant_moves::FiniteK;
 
-use super::stop_rows::{Leads, StopRows, Stops};
+use super::stop_rows::{EnterRows, Leads, StopRows, Stops};
 use crate::canonical::Pruning;
 
 /// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
@@ -62,12 +62,12 @@ impl DiagonalStops {
         Self::words(graph).saturating_mul(size_of::<Stops>())
     }
 
-    /// Computes the planes of a grid graph. `leads` says from which vertices axial jumps come to jump points,
-    /// and from which they do where they pass dead ends.
+    /// Computes the planes of a grid graph. `enters` says where diagonal moves lead, `leads` from which
+    /// vertices axial jumps come to jump points, and from which they do where they pass dead ends.
     pub(super) fn new<P: Placement>(
         graph: &GridGraph<P>,
         pruning: &Pruning<P>,
-        leads: [&Leads; 2],
+        (enters, leads): (&EnterRows, [&Leads; 2]),
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
         let (width, height) = P::vertices(graph.grid());
@@ -87,11 +87,9 @@ impl DiagonalStops {
             let first = i * per_plane;
             all.planes[i] =
                 Plane::new(graph.step(index).vector(), (width as i32, height as i32), first as u64 * 64);
-            StopRows::new(graph, pruning, index, leads).for_each_word(interrupt, |line, word, stops| {
-                let known = &mut to[first + line * per_line + word];
-                known.iter_mut().zip(stops).for_each(|(known, stops)| *known |= stops);
-            })?;
-            for line in to[first..first + per_plane].chunks_exact_mut(per_line) {
+            let plane = &mut to[first..first + per_plane];
+            StopRows::new(graph, pruning, index, (enters, leads)).put((plane, per_line), interrupt)?;
+            for line in plane.chunks_exact_mut(per_line) {
                 if let Some(last) = line.last_mut() {
                     // Beyond the end of the line.
                     last[0] |= !0 << (length % 64);

@@ -61,6 +61,7 @@
 
 mod axial;
 mod block_finder;
+mod cell_rows;
 mod dead_ends;
 mod diagonals;
 mod error;

@@ -5,10 +5,10 @@ use mediant_moves::KError;
 
 use super::{
     axial::AxialStops,
+    cell_rows::EndRows,
     dead_ends::{DeadEndRows, REACH, find::DeadEndFinder},
     diagonals::DiagonalStops,
-    stop_rows::Leads,
-    zone::Zone,
+    stop_rows::{EnterRows, Leads},
 };
 use crate::canonical::Pruning;
 
@@ -19,6 +19,25 @@ pub(super) struct JumpPlanes {
     pub(super) dead_ends: DeadEndRows,
     /// How far dead ends reach; 0 if there are none.
     pub(super) reach: u32,
+}
+
+/// The rows by which planes of diagonal jumps, and dead ends, are found: a word for 64 vertices.
+pub(super) struct PlaneRows {
+    pub(super) ends: EndRows,
+    /// From where jumps lead on if they pass no dead ends.
+    pub(super) leads: Leads,
+    pub(super) enters: EnterRows,
+}
+
+impl PlaneRows {
+    pub(super) fn new<P: Placement>(
+        graph: &GridGraph<P>,
+        interrupt: &Interrupt,
+    ) -> Result<Self, Interrupted> {
+        let ends = EndRows::new(graph, interrupt)?;
+        let leads = Leads::new(&ends, &DeadEndRows::default(), interrupt)?;
+        Ok(Self { ends, leads, enters: EnterRows::new(graph, interrupt)? })
+    }
 }
 
 /// On maps with more jump points than one for so many vertices, as in noise, dead ends make searches hardly
@@ -76,37 +95,32 @@ impl JumpPlanes {
         reach: u32,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
-        let dead_ends = DeadEndRows::default();
-        let leads = Leads::new(graph, &dead_ends, interrupt)?;
+        let rows = PlaneRows::new(graph, interrupt)?;
         let table = pruning.table().filter(|_| reach > 0 && !graph.has_closed_gaps());
-        if let Some(table) = table {
-            let dead_ends =
-                DeadEndFinder { graph, table, leads: Some(&leads), reach }.mark(&mut axial, interrupt)?;
-            if !dead_ends.is_empty() {
-                let live = Leads::new(graph, &dead_ends, interrupt)?;
-                let diagonals = DiagonalStops::new(graph, pruning, [&leads, &live], interrupt)?;
-                return Ok(Self { axial, diagonals, dead_ends, reach });
+        let dead_ends = match table {
+            Some(table) => {
+                DeadEndFinder { graph, table, rows: Some(&rows), reach }.mark(&mut axial, interrupt)?
             }
-        }
-        let diagonals = DiagonalStops::new(graph, pruning, [&leads; 2], interrupt)?;
-        Ok(Self { axial, diagonals, dead_ends, reach: 0 })
+            None => DeadEndRows::default(),
+        };
+        let reach = if dead_ends.is_empty() { 0 } else { reach };
+        Self::with_known_dead_ends(graph, pruning, (axial, dead_ends, reach), &rows, interrupt)
     }
 
-    /// Where those are the dead ends that the planes of axial jumps say.
+    /// With these dead ends, which the planes of axial jumps know.
     pub(super) fn with_known_dead_ends<P: Placement>(
         graph: &GridGraph<P>,
         pruning: &Pruning<P>,
-        (axial, reach): (AxialStops, u32),
+        (axial, dead_ends, reach): (AxialStops, DeadEndRows, u32),
+        PlaneRows { ends, leads, enters }: &PlaneRows,
         interrupt: &Interrupt,
     ) -> Result<Self, Interrupted> {
-        let map = Zone::map::<P>(graph.grid());
-        let mut dead_ends = DeadEndRows::new(P::vertices(graph.grid()));
-        for quarter in (0..4).step_by(8 / graph.steps().len()) {
-            axial.for_each_jump_point((map, quarter), true, |point| dead_ends.add(point.at, quarter));
-        }
-        let [leads, live] =
-            [&DeadEndRows::default(), &dead_ends].map(|dead| Leads::new(graph, dead, interrupt));
-        let diagonals = DiagonalStops::new(graph, pruning, [&leads?, &live?], interrupt)?;
+        let diagonals = if dead_ends.is_empty() {
+            DiagonalStops::new(graph, pruning, (enters, [leads; 2]), interrupt)?
+        } else {
+            let live = Leads::new(ends, &dead_ends, interrupt)?;
+            DiagonalStops::new(graph, pruning, (enters, [leads, &live]), interrupt)?
+        };
         Ok(Self { axial, diagonals, dead_ends, reach })
     }
 }

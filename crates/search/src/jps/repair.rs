@@ -12,10 +12,11 @@
 //!
 //! Whether a jump point p is a [dead end](super::dead_ends) follows from the patterns of vertices within the
 //! reach of p, from the jump points within it, and from whether jumps from vertices within it come to jump
-//! points. So all dead ends within reach of a zone, or of a vertex from which the answer changes, are looked
-//! at again, and few others: these vertices are kept as tiles. None of this depends on which of them are dead
-//! ends. Once that is known, jumps that pass dead ends have changes of their own, which begin where one
-//! begins or ceases to be.
+//! points. A dead end stays one where they cease to: if they came to one of its own jump points, that lies
+//! within the reach, and if that has changed, so has its pattern. So all dead ends within reach of a zone, or
+//! of a vertex from which jumps come to a jump point and did not, are looked at again, and few others: these
+//! vertices are kept as tiles. None of this depends on which of them are dead ends. Once that is known, jumps
+//! that pass dead ends have changes of their own, which begin where one begins or ceases to be.
 //!
 //! A dead end that is not known to be one costs a search some time, and no path. So other jump points are
 //! looked at only close to the zones. But for these, the result is equal to new planes, bit by bit.
@@ -28,16 +29,18 @@ use mediant_grid::{BitMatrix, Change, Grid, GridGraph, Interrupt, Interrupted, P
 use super::{
     DURING,
     axial::{Answers, AxialStops, JumpPoint, LineWord},
-    dead_ends::find::DeadEndFinder,
+    cell_rows::EndRows,
+    dead_ends::{DeadEndRows, find::DeadEndFinder},
     diagonals::{DiagonalEdit, DiagonalStops},
-    planes::JumpPlanes,
+    planes::{JumpPlanes, PlaneRows},
+    stop_rows::Leads,
     zone::Zone,
 };
 use crate::canonical::{PatternTable, Pruning};
 
 mod tiles;
 
-use self::tiles::Tiles;
+use self::tiles::{Near, Tiles};
 
 /// Why a repair ended without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,22 +76,26 @@ pub(super) struct Repair<'r, P: Placement> {
     /// The reach of dead ends; 0 if there are none.
     reach: u32,
     map: Zone,
-    /// The time that it may still take, in nanoseconds as it is reckoned: that of new planes.
+    /// The time that it may still take, in tenths of nanoseconds as it is reckoned: that of new planes.
     left: u64,
 }
 
-/// The time for a vertex of a zone, in nanoseconds.
-const OF_ZONE: u64 = 120;
+/// The time for a vertex of a zone, in tenths of nanoseconds.
+const OF_ZONE: u64 = 1200;
 /// The time for a vertex from which the answer changes.
-const OF_VERTEX: u64 = 50;
+const OF_VERTEX: u64 = 500;
 /// For a change of more zones these vertices are counted before any is looked at.
 const FEW_ZONES: usize = 16;
 /// The time of new planes for a vertex and a direction of diagonal jumps, and where these have forced
 /// successors, which are looked for vertex by vertex. (The dead ends that are looked at are the same.)
-const NEW: u64 = 1;
-const NEW_WITH_FORCED: u64 = 6;
+const NEW: u64 = 8;
+const NEW_WITH_FORCED: u64 = 54;
 /// The distance from a zone up to which new dead ends are looked for.
 const NEAR: i32 = 4;
+/// The tiles of vertices near a zone, and of those from which a dead end may be within reach, have sides of
+/// 2^n vertices.
+const NEAR_TILE: u32 = 2;
+const REACH_TILE: u32 = 3;
 
 impl<'r, P: Placement> Repair<'r, P> {
     /// On the grid graph after the change, by its table of successors.
@@ -161,9 +168,8 @@ impl<'r, P: Placement> Repair<'r, P> {
     /// New planes, where only those dead ends are looked for that the change may alter: as in
     /// [`follow`](Self::follow).
     pub(super) fn anew(self, pruning: &Pruning<P>, change: &Change) -> Result<JumpPlanes, Interrupted> {
-        let were_looked_for = JumpPlanes::should_have_dead_ends(self.graph, self.axial);
-        if self.reach == 0 && were_looked_for {
-            // There were none.
+        if self.reach == 0 && JumpPlanes::should_have_dead_ends(self.graph, self.axial) {
+            // They were looked for, and there were none.
             return JumpPlanes::new(self.graph, pruning, self.interrupt);
         }
         let mut axial = AxialStops::new(self.graph, self.interrupt)?;
@@ -171,10 +177,12 @@ impl<'r, P: Placement> Repair<'r, P> {
             return JumpPlanes::with_dead_ends(self.graph, pruning, axial, 0, self.interrupt);
         }
         axial.take_dead_ends(self.axial);
-        let (zones, words) = (Zone::of_change::<P>(change), axial.words_unlike(self.axial));
-        let points = self.jump_points(&axial, &zones, &words)?;
+        let rows = PlaneRows::new(self.graph, self.interrupt)?;
+        let mut dead_ends = DeadEndRows::new(P::vertices(change.after()));
+        let points = self.jump_points_of_all(&axial, change, &rows, &mut dead_ends)?;
         let axial = axial.with_jump_points(&points);
-        JumpPlanes::with_known_dead_ends(self.graph, pruning, (axial, self.reach), self.interrupt)
+        let known = (axial, dead_ends, self.reach);
+        JumpPlanes::with_known_dead_ends(self.graph, pruning, known, &rows, self.interrupt)
     }
 
     /// The directions of axial jumps.
@@ -206,11 +214,11 @@ impl<'r, P: Placement> Repair<'r, P> {
         words: &[usize],
     ) -> Result<Vec<JumpPoint>, Interrupted> {
         let reach = self.reach as i32;
-        // The vertices within reach of a zone, or of a vertex from which jumps lead elsewhere.
-        let mut tiles = Tiles::new(self.map, 3);
+        // The vertices within reach of a zone, or of a vertex from which jumps lead on and did not.
+        let mut tiles = Tiles::new(self.map, REACH_TILE);
         zones.iter().for_each(|zone| tiles.add(zone.grown(reach, reach)));
         axial.for_each_other_answer(self.axial, words, |line, [was, is]| {
-            let bits = was.any ^ is.any;
+            let bits = is.any & !was.any;
             if bits != 0 {
                 let [first, last] =
                     [bits.trailing_zeros(), 63 - bits.leading_zeros()].map(|bit| line.vertex(bit));
@@ -225,15 +233,7 @@ impl<'r, P: Placement> Repair<'r, P> {
                 axial.for_each_jump_point((zone, quarter), true, |point| points.push(point));
             }
         }
-        let near = zones.iter().map(|zone| zone.grown(NEAR, NEAR));
-        let near = if let [_] = zones {
-            near.map(|zone| zone.within(self.map)).collect()
-        } else {
-            let mut tiles = Tiles::new(self.map, 2);
-            near.for_each(|zone| tiles.add(zone));
-            tiles.zones()
-        };
-        for zone in near {
+        for zone in Near::new(zones, NEAR, (self.map, NEAR_TILE)).zones() {
             for quarter in self.quarters() {
                 axial.for_each_jump_point((zone, quarter), false, |point| {
                     if !point.is_dead_end {
@@ -242,7 +242,69 @@ impl<'r, P: Placement> Repair<'r, P> {
                 });
             }
         }
-        let finder = DeadEndFinder { graph: self.graph, table: self.table, leads: None, reach: self.reach };
+        self.changed(axial, points, None)
+    }
+
+    /// The same by all jump points of the map, where it alters much. Adds the dead ends to `dead_ends`.
+    fn jump_points_of_all(
+        &self,
+        axial: &AxialStops,
+        change: &Change,
+        rows: &PlaneRows,
+        dead_ends: &mut DeadEndRows,
+    ) -> Result<Vec<JumpPoint>, Interrupted> {
+        let (zones, reach) = (Zone::of_change::<P>(change), self.reach as i32);
+        let near = Near::new(&zones, NEAR, (self.map, NEAR_TILE));
+        let mut tiles = Tiles::new(self.map, REACH_TILE);
+        zones.iter().for_each(|zone| tiles.add(zone.grown(reach, reach)));
+        let ends = EndRows::on(change.before(), self.graph, self.interrupt)?;
+        let before = Leads::new(&ends, &DeadEndRows::default(), self.interrupt)?;
+        let mut new = vec![0; ends.per_row];
+        for y in (0..=self.map.last.y).step_by(1 << REACH_TILE) {
+            self.interrupt.check(DURING)?;
+            let last = y + (1 << REACH_TILE) - 1;
+            new.fill(0);
+            (y..=last.min(self.map.last.y)).for_each(|y| rows.leads.add_new(&before, y as usize, &mut new));
+            for (bits, x) in new.iter().zip((0..).step_by(64)).filter(|(bits, _)| **bits != 0) {
+                let [from, to] = [bits.trailing_zeros(), 63 - bits.leading_zeros()].map(|bit| x + bit as i32);
+                let zone = Zone { first: Vertex::new(from, y), last: Vertex::new(to, last) };
+                tiles.add(zone.grown(reach, reach));
+            }
+        }
+        let mut points = Vec::new();
+        for quarter in self.quarters() {
+            self.interrupt.check(DURING)?;
+            axial.for_each_jump_point_of_map(quarter, |point| {
+                let is_looked_at = if point.is_dead_end {
+                    dead_ends.add(point.at, quarter);
+                    tiles.hold(point.at)
+                } else {
+                    near.holds(point.at)
+                };
+                if is_looked_at {
+                    points.push(point);
+                }
+            });
+        }
+        let changed = self.changed(axial, points, Some(rows))?;
+        for &JumpPoint { at, quarter, is_dead_end } in &changed {
+            if is_dead_end {
+                dead_ends.add(at, quarter);
+            } else {
+                dead_ends.remove(at, quarter);
+            }
+        }
+        Ok(changed)
+    }
+
+    /// The ones of these jump points that are dead ends and were none, or the other way.
+    fn changed(
+        &self,
+        axial: &AxialStops,
+        points: Vec<JumpPoint>,
+        rows: Option<&PlaneRows>,
+    ) -> Result<Vec<JumpPoint>, Interrupted> {
+        let finder = DeadEndFinder { graph: self.graph, table: self.table, rows, reach: self.reach };
         let mut changed = Vec::new();
         for (number, point) in points.into_iter().enumerate() {
             self.interrupt.check_every(64, number, DURING)?;

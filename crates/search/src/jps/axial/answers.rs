@@ -34,13 +34,6 @@ impl AxialStops {
         (self.planes[quarter & 3].place(at) >> 6) as usize
     }
 
-    /// The words in which vertices stop jumps otherwise than in planes of the same size, or are other dead
-    /// ends.
-    pub(in super::super) fn words_unlike(&self, other: &Self) -> Vec<usize> {
-        let words = self.words.iter().zip(other.words.iter()).enumerate();
-        words.filter(|(_, (is, was))| is != was).map(|(word, _)| word).collect()
-    }
-
     /// Goes back from the last of these words, which are in order, as long as jumps answer otherwise than in
     /// planes of the same size `before`, and likewise from those that it did not come to. Calls `visit` with
     /// the words from which they do, with their answers before and now.

@@ -18,7 +18,7 @@ use crate::{
         axial::{AxialStops, JumpPoint},
         dead_ends::{DeadEndRows, REACH},
         diagonals::DiagonalStops,
-        planes::JumpPlanes,
+        planes::{JumpPlanes, PlaneRows},
         stop_rows::Leads,
         zone::Zone,
     },
@@ -212,8 +212,9 @@ fn with_dead_ends<P: Placement>(
 ) -> DiagonalStops {
     let rows = rows_of(graph, dead_ends);
     uninterrupted(|never| {
-        let leads = Leads::new(graph, &DeadEndRows::default(), never)?;
-        DiagonalStops::new(graph, pruning, [&leads, &Leads::new(graph, &rows, never)?], never)
+        let PlaneRows { ends, leads, enters } = PlaneRows::new(graph, never)?;
+        let live = Leads::new(&ends, &rows, never)?;
+        DiagonalStops::new(graph, pruning, (&enters, [&leads, &live]), never)
     })
 }
 

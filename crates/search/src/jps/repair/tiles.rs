@@ -38,6 +38,12 @@ impl Tiles {
         }
     }
 
+    /// Whether the tile of a vertex of the map is one of them.
+    pub(super) fn hold(&self, at: Vertex) -> bool {
+        let [x, y] = [at.x, at.y].map(|at| (at >> self.side) as usize);
+        self.words[y * self.words_a_row + x / 64] >> (x % 64) & 1 == 1
+    }
+
     /// The rectangles of vertices that these tiles are, each as wide as there are tiles side by side, and as
     /// high as these are the same.
     pub(super) fn zones(&self) -> Vec<Zone> {
@@ -56,6 +62,41 @@ impl Tiles {
         }
         all.append(&mut open);
         all.into_iter().map(|zone| zone.within(self.map)).collect()
+    }
+}
+
+/// Vertices near the zones of a change.
+#[derive(Debug)]
+pub(super) enum Near {
+    Zone(Zone),
+    Tiles(Tiles),
+}
+
+impl Near {
+    /// The vertices of a map within a distance of zones; of more than one zone, by tiles with sides of
+    /// 2^`side` vertices.
+    pub(super) fn new(zones: &[Zone], distance: i32, (map, side): (Zone, u32)) -> Self {
+        if let &[zone] = zones {
+            return Self::Zone(zone.grown(distance, distance).within(map));
+        }
+        let mut tiles = Tiles::new(map, side);
+        zones.iter().for_each(|zone| tiles.add(zone.grown(distance, distance)));
+        Self::Tiles(tiles)
+    }
+
+    pub(super) fn zones(&self) -> Vec<Zone> {
+        match self {
+            Self::Zone(zone) => vec![*zone],
+            Self::Tiles(tiles) => tiles.zones(),
+        }
+    }
+
+    /// Whether a vertex of the map is one of them.
+    pub(super) fn holds(&self, at: Vertex) -> bool {
+        match self {
+            Self::Zone(zone) => zone.holds(at),
+            Self::Tiles(tiles) => tiles.hold(at),
+        }
     }
 }
 

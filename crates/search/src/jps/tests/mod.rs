@@ -13,7 +13,7 @@ use super::{
     axial::{AxialStops, Scan},
     diagonals::DiagonalStops,
     finder::{JumpContext, JumpRules},
-    stop_rows::Leads,
+    planes::PlaneRows,
     to_goal::{GoalLegs, ToGoal},
 };
 use crate::{canonical::Pruning, successors::ExpandedNode};
@@ -244,8 +244,8 @@ impl Suite for DiagonalScans {
     fn check<P: Placement>(&mut self, reference: &Reference<P>, case: &dyn Fn(Vertex, Vertex) -> String) {
         let graph = &reference.graph;
         let stops = uninterrupted(|never| {
-            let leads = Leads::new(graph, &Default::default(), never)?;
-            DiagonalStops::new(graph, &Pruning::new(graph), [&leads; 2], never)
+            let PlaneRows { leads, enters, .. } = PlaneRows::new(graph, never)?;
+            DiagonalStops::new(graph, &Pruning::new(graph), (&enters, [&leads; 2]), never)
         });
         let last = graph.steps().len() - 1;
         for (_, from) in reference.vertices() {
