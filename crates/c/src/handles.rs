@@ -56,9 +56,9 @@ impl Kind {
 const IS: (&str, &str) = ("is", "are");
 const WAS: (&str, &str) = ("was", "were");
 
-/// What has a table of its kind.
+/// An object that has a table of its kind.
 pub(crate) trait Held {
-    /// What is in its places: itself, or an `Arc` of it.
+    /// The content of its places: itself, or an `Arc` of it.
     type Kept: Send + 'static;
 
     fn handles() -> &'static Table<Self::Kept>;
@@ -92,7 +92,7 @@ struct Place<T> {
 
 /// The places that can be taken.
 struct Free {
-    /// Those that were freed.
+    /// Places that were freed.
     freed: Vec<u32>,
     /// The number of those that were ever taken.
     taken: u32,
@@ -171,7 +171,7 @@ impl<T> Table<T> {
         let mut there = match place.object.try_lock() {
             Ok(there) => there,
             Err(TryLockError::WouldBlock) => return Err(self.busy()),
-            // What panicked may have left anything there.
+            // A call that panicked may have left anything there.
             Err(TryLockError::Poisoned(_)) => return Err(self.broken()),
         };
         match &mut *there {

@@ -22,7 +22,7 @@ use crate::{
     words,
 };
 
-/// What an engine prepared of a space. It never changes; any number of threads may use it. `{0}` is no index.
+/// A space, prepared for an engine. It never changes; any number of threads may use it. `{0}` is no index.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct IndexHandle {
@@ -271,7 +271,7 @@ pub unsafe extern "C" fn mediant_index_setup(
     })
 }
 
-/// How much longer than the shortest path at any angle the paths of an index can be: 1.08 is 8 %. NaN where no
+/// How much longer than the shortest path at any angle paths of an index can be: 1.08 is 8 %. NaN where no
 /// bound is proven.
 ///
 /// # Safety
