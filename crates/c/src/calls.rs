@@ -90,7 +90,11 @@ fn check(case: &Value, map: &str, words: &str) {
             assert_eq!(Some(answer.stopped_by as i32), number(by, &limits), "{case}");
             if let Some(path) = expected["path"].as_array() {
                 let path: Vec<Point> = path.iter().map(point).collect();
-                assert_eq!((&points, Some(answer.distance)), (&path, expected["distance"].as_f64()), "{case}");
+                assert_eq!(
+                    (&points, Some(answer.distance)),
+                    (&path, expected["distance"].as_f64()),
+                    "{case}"
+                );
             }
         }
     }
@@ -133,10 +137,30 @@ fn the_table_of_what_can_be_asked_names_the_functions() {
         .filter(|name| !["any_angle_lower_bound", "limit"].contains(name))
         .collect();
     let of_no_row = [
-        "batch_paths", "bytes_data", "code_name", "field_distances", "field_repair", "field_size", "goals_new",
-        "index_bound", "index_is_finished", "index_memory", "index_setup", "index_space", "interface",
-        "map_costs", "map_is_blocked", "map_size", "message", "objects", "planner_best", "planner_new",
-        "planner_points", "planner_progress", "space_new", "version",
+        "batch_paths",
+        "bytes_data",
+        "code_name",
+        "field_distances",
+        "field_repair",
+        "field_size",
+        "goals_new",
+        "index_bound",
+        "index_is_finished",
+        "index_memory",
+        "index_setup",
+        "index_space",
+        "interface",
+        "map_costs",
+        "map_is_blocked",
+        "map_size",
+        "message",
+        "objects",
+        "planner_best",
+        "planner_new",
+        "planner_points",
+        "planner_progress",
+        "space_new",
+        "version",
     ];
     let missing: Vec<_> = known
         .iter()
