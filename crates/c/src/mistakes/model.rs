@@ -4,6 +4,7 @@ use std::{
     cell::{OnceCell, RefCell},
     collections::HashMap,
     rc::Rc,
+    sync::Arc,
 };
 
 use library::{
@@ -312,8 +313,7 @@ pub(super) struct PlannerModel {
     /// Whether it may have forgotten that search.
     pub(super) is_lost: bool,
     /// What the search that was begun may call.
-    #[expect(clippy::vec_box, reason = "each is its watcher's data, and must not move")]
-    pub(super) callers: Vec<Box<Caller>>,
+    pub(super) callers: Vec<Arc<Caller>>,
 }
 
 /// A search that was begun.
