@@ -230,8 +230,8 @@ pub unsafe extern "C" fn mediant_planner_distance(
     })
 }
 
-/// Begins a search, and forgets the last one. Nothing is expanded yet. Any other query of this planner forgets
-/// it. What a watcher calls, and its data, must stay until the search has answered or is forgotten.
+/// Begins a search, and forgets the last one. Nothing is expanded yet. Any other query of this planner
+/// forgets it. What a watcher calls, and its data, must stay until the search has answered or is forgotten.
 ///
 /// # Safety
 /// As for `mediant_planner_find`.

@@ -20,9 +20,9 @@ use crate::{code::Code, failure::Failure, memory};
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct Watcher {
-    /// Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_CANCELLED`; a search
-    /// answers with `MEDIANT_STATUS_STOPPED` and `MEDIANT_LIMIT_CANCELLED`. It is asked some hundred times a
-    /// second or more, and not again once it has said so.
+    /// Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_CANCELLED`; a
+    /// search answers with `MEDIANT_STATUS_STOPPED` and `MEDIANT_LIMIT_CANCELLED`. It is asked some hundred
+    /// times a second or more, and not again once it has said so.
     pub stop: Option<unsafe extern "C" fn(data: *mut c_void) -> i32>,
     /// Is told how much is done of how much, at most some hundred times.
     pub progress: Option<unsafe extern "C" fn(data: *mut c_void, done: u64, total: u64)>,

@@ -15,7 +15,7 @@ use crate::{
     points::{Cell, Point},
 };
 
-/// What an array has in it before a call writes there.
+/// The bytes of an array before a call writes there.
 pub(super) const UNTOUCHED: u8 = 0xa5;
 
 /// An array of the caller's, with exactly the room that is stated, or a pointer that leads nowhere.
@@ -28,7 +28,8 @@ pub(super) struct Array<T> {
 }
 
 impl<T: Copy> Array<T> {
-    /// What is in it after a call that wrote there, or before of numbers. None of a pointer that led nowhere.
+    /// Its values after a call that wrote there; numbers are values before, too.
+    /// None of a pointer that led nowhere.
     pub(super) fn values(&self) -> Vec<T> {
         // SAFETY: the memory is this array's, and has so many values.
         (0..self.data.len()).map(|n| unsafe { self.at.add(n).read() }).collect()

@@ -1,4 +1,4 @@
-//! What objects are, by slow definitions: the oracle's.
+//! Objects by slow definitions: those of the oracle.
 
 use std::{
     cell::{OnceCell, RefCell},
@@ -312,7 +312,7 @@ pub(super) struct PlannerModel {
     pub(super) begun: Option<Begun>,
     /// Whether it may have forgotten that search.
     pub(super) is_lost: bool,
-    /// What the search that was begun may call.
+    /// The watchers of the search that was begun.
     pub(super) callers: Vec<Arc<Caller>>,
 }
 

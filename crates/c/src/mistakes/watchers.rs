@@ -19,7 +19,7 @@ use crate::{
     watch::Watcher,
 };
 
-/// What a watcher's functions have as their data.
+/// The data of a watcher's functions.
 #[derive(Debug)]
 pub(super) struct Caller {
     asked: AtomicU64,
@@ -30,14 +30,14 @@ pub(super) struct Caller {
     planner: u64,
     /// Whether it calls the library.
     calls: bool,
-    /// What went wrong in a function that cannot panic.
+    /// The mistake that was seen in a function that cannot panic.
     wrong: Mutex<Option<String>>,
 }
 
 /// A watcher of a call.
 pub(super) struct Drawn {
     pub(super) caller: Arc<Caller>,
-    /// What `at` leads to, for as long as the call.
+    /// The memory that `at` leads to, for as long as the call.
     _raw: Box<Watcher>,
     pub(super) at: *const Watcher,
     /// Whether it may stop the work.
