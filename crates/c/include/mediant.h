@@ -198,9 +198,9 @@ typedef struct {
 // an exception out. They may call the library, but for the planner whose call they are in: it is busy. Each
 // may be null.
 typedef struct {
-  // Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_CANCELLED`; a search
-  // answers with `MEDIANT_STATUS_STOPPED` and `MEDIANT_LIMIT_CANCELLED`. It is asked some hundred times a
-  // second or more, and not again once it has said so.
+  // Whether to stop: any number but 0 stops the work, which then returns `MEDIANT_CODE_CANCELLED`; a
+  // search answers with `MEDIANT_STATUS_STOPPED` and `MEDIANT_LIMIT_CANCELLED`. It is asked some hundred
+  // times a second or more, and not again once it has said so.
   int32_t (*stop)(void *data);
   // Is told how much is done of how much, at most some hundred times.
   void (*progress)(void *data, uint64_t done, uint64_t total);
@@ -672,8 +672,8 @@ mediant_code mediant_map_size(mediant_map map, uint32_t *width, uint32_t *height
 // `blocked` leads to memory for `room` bytes.
 mediant_code mediant_map_cells(mediant_map map, uint8_t *blocked, size_t room);
 
-// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another, a
-// tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
+// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another,
+// a tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
 //
 // Required:
 // `blocked` leads to memory for a number.
@@ -875,8 +875,8 @@ mediant_code mediant_planner_distance(mediant_planner planner,
                                       mediant_point goal,
                                       double *length);
 
-// Begins a search, and forgets the last one. Nothing is expanded yet. Any other query of this planner forgets
-// it. What a watcher calls, and its data, must stay until the search has answered or is forgotten.
+// Begins a search, and forgets the last one. Nothing is expanded yet. Any other query of this planner
+// forgets it. What a watcher calls, and its data, must stay until the search has answered or is forgotten.
 //
 // Required:
 // As for `mediant_planner_find`.
@@ -1003,8 +1003,8 @@ mediant_code mediant_space_connected(mediant_space space,
                                      mediant_point to,
                                      int32_t *connected);
 
-// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for itself:
-// a closed gap that it passes is in its way, one at which it begins or ends is not.
+// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for
+// itself: a closed gap that it passes is in its way, one at which it begins or ends is not.
 //
 // Required:
 // `seen` leads to memory for a number.

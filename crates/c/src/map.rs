@@ -185,8 +185,8 @@ pub unsafe extern "C" fn mediant_map_cells(map: MapHandle, blocked: *mut u8, roo
     })
 }
 
-/// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another, a
-/// tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
+/// Whether a cell is blocked: 1 or 0. All outside the map is. Threads that ask one map wait for one another,
+/// a tenth of a microsecond each time: for many cells `mediant_map_cells` has them all.
 ///
 /// # Safety
 /// `blocked` leads to memory for a number.

@@ -106,8 +106,8 @@ pub unsafe extern "C" fn mediant_space_connected(
     })
 }
 
-/// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for itself:
-/// a closed gap that it passes is in its way, one at which it begins or ends is not.
+/// Whether the straight segment between two points obeys the rules of motion: 1 or 0. It is judged for
+/// itself: a closed gap that it passes is in its way, one at which it begins or ends is not.
 ///
 /// # Safety
 /// `seen` leads to memory for a number.

@@ -2,6 +2,7 @@
 
 use std::{
     ffi::{CString, c_char},
+    mem::MaybeUninit,
     ptr,
 };
 
@@ -14,19 +15,21 @@ use crate::{
     points::{Cell, Point},
 };
 
-/// What an array has in it before a call writes there.
+/// The bytes of an array before a call writes there.
 pub(super) const UNTOUCHED: u8 = 0xa5;
 
 /// An array of the caller's, with exactly the room that is stated, or a pointer that leads nowhere.
 pub(super) struct Array<T> {
-    data: Vec<T>,
+    /// A value of an enum that no call has written is none.
+    data: Vec<MaybeUninit<T>>,
     pub(super) at: *mut T,
     pub(super) count: usize,
     shift: usize,
 }
 
 impl<T: Copy> Array<T> {
-    /// What is in it after a call. None of a pointer that led nowhere.
+    /// Its values after a call that wrote there; numbers are values before, too.
+    /// None of a pointer that led nowhere.
     pub(super) fn values(&self) -> Vec<T> {
         // SAFETY: the memory is this array's, and has so many values.
         (0..self.data.len()).map(|n| unsafe { self.at.add(n).read() }).collect()
@@ -39,34 +42,34 @@ impl<T: Copy> Array<T> {
 
     /// Whether a call has left it as it was.
     pub(super) fn is_untouched(&self) -> bool {
-        self.shift > 0 || self.at.is_null() || self.values().iter().all(|&value| is_untouched(&value))
+        let bytes = self.data.len() * size_of::<T>();
+        // SAFETY: the memory is this array's; the types that are drawn have no bytes between their parts.
+        (0..bytes).all(|n| unsafe { self.at.cast::<u8>().add(n).read() } == UNTOUCHED)
     }
 }
 
-fn is_untouched<T: Copy>(value: &T) -> bool {
-    let at = ptr::from_ref(value).cast::<u8>();
-    // SAFETY: the types that are drawn have no bytes between their parts.
-    (0..size_of::<T>()).all(|n| unsafe { at.add(n).read() } == UNTOUCHED)
+/// Memory that no call has written.
+fn blank<T>() -> MaybeUninit<T> {
+    let mut value = MaybeUninit::uninit();
+    // SAFETY: it is memory for a value.
+    unsafe { ptr::write_bytes(value.as_mut_ptr(), UNTOUCHED, 1) };
+    value
 }
 
-/// A value that no call has written.
+/// A number that no call has written, or numbers and pointers.
 pub(super) fn untouched<T: Copy>() -> T {
-    let mut value = std::mem::MaybeUninit::<T>::uninit();
-    // SAFETY: it is memory for a value; every pattern of bits is one, of the types that are drawn.
-    unsafe {
-        ptr::write_bytes(value.as_mut_ptr(), UNTOUCHED, 1);
-        value.assume_init()
-    }
+    // SAFETY: every pattern of bits is a value of the types that are asked for.
+    unsafe { blank().assume_init() }
 }
 
 /// Counts that no memory can hold.
 const IMPOSSIBLE: [usize; 3] = [usize::MAX, usize::MAX / 2, (isize::MAX as usize) / 2 + 1];
 
 impl World {
-    fn array_of<T: Copy>(&mut self, values: Vec<T>) -> Array<T> {
+    fn array_of<T: Copy>(&mut self, values: Vec<MaybeUninit<T>>) -> Array<T> {
         let mut data = values;
         data.shrink_to_fit();
-        let mut array = Array { at: data.as_mut_ptr(), count: data.len(), data, shift: 0 };
+        let mut array = Array { at: data.as_mut_ptr().cast(), count: data.len(), data, shift: 0 };
         match self.rng.below(100) {
             0 => {
                 array.at = ptr::null_mut();
@@ -91,12 +94,12 @@ impl World {
 
     /// An array that is read.
     pub(super) fn values<T: Copy>(&mut self, values: &[T]) -> Array<T> {
-        self.array_of(values.to_vec())
+        self.array_of(values.iter().copied().map(MaybeUninit::new).collect())
     }
 
     /// An array that is read beside another one, which has so many values.
     pub(super) fn beside<T: Copy>(&mut self, values: &[T], count: usize) -> Array<T> {
-        let mut array = self.array_of(values.to_vec());
+        let mut array = self.array_of(values.iter().copied().map(MaybeUninit::new).collect());
         if array.count != values.len() {
             // The count is that of the other, which is noted already.
             array.count = count;
@@ -113,13 +116,13 @@ impl World {
             2 => enough + 3,
             _ => enough,
         };
-        self.array_of(vec![untouched(); room])
+        self.array_of(vec![blank(); room])
     }
 
     /// A place for a result.
     pub(super) fn place<T: Copy>(&mut self) -> Array<T> {
-        let mut place = Array { data: vec![untouched::<T>()], at: ptr::null_mut(), count: 1, shift: 0 };
-        place.at = place.data.as_mut_ptr();
+        let mut place = Array { data: vec![blank::<T>()], at: ptr::null_mut(), count: 1, shift: 0 };
+        place.at = place.data.as_mut_ptr().cast();
         match self.rng.below(150) {
             0 => place.at = ptr::null_mut(),
             1 if align_of::<T>() > 1 => (place.at, place.shift) = (place.at.wrapping_byte_add(1), 1),

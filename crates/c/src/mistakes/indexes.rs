@@ -64,7 +64,7 @@ const BAD: [(&str, Code); 8] = [
     ("smooth=silk", Code::UnknownName),
 ];
 
-/// What an engine may say to a motion that it does not take, or a map with costs.
+/// Codes of an engine for a motion that it does not take, or a map with costs.
 const UNFIT: [Code; 9] = [
     Code::EngineK,
     Code::EngineRules,
@@ -111,7 +111,7 @@ pub(super) fn prepare(world: &mut World) {
     let is_null = which == Some(0) && world.rng.chance(50);
     let watcher = world.watcher(0);
     let place = world.place();
-    // What is best for a map without costs, and what searches every finite k, is always there.
+    // The best one for a map without costs is always there, and so are those that search every finite k.
     let is_plain = space.as_ref().is_some_and(|space| space.map.costs.is_none());
     let is_finite = space.as_ref().is_some_and(|space| space.finite().is_some());
     if !(is_plain && matches!(which, Some(0 | 1)) || is_plain && is_finite && matches!(which, Some(2..=4))) {
@@ -238,7 +238,7 @@ fn to_bytes(world: &mut World) {
     }
 }
 
-/// What bytes that were changed may be.
+/// Codes of bytes that were changed.
 const DAMAGED: [Code; 7] = [
     Code::IndexDamaged,
     Code::IndexEngine,

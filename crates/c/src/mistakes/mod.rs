@@ -1,4 +1,4 @@
-//! Hundreds of thousands of calls, right and mistaken, in random order: none does harm, and no answer is wrong.
+//! Hundreds of thousands of calls, right and mistaken, in random order: none does harm, no answer is wrong.
 //!
 //! A program of calls has a seed. Each call draws its arguments, most of them right: handles that are alive,
 //! freed, null, of another kind, made up; pointers that are null or misaligned; points that are blocked,
@@ -35,8 +35,8 @@ use crate::about::mediant_objects;
 /// Calls a function of C.
 macro_rules! ask {
     ($call:expr) => {
-        // SAFETY: a pointer that is drawn is null, misaligned, or leads to what the header asks for, in memory
-        // that has exactly so much room; arrays that no memory can hold have counts that say so.
+        // SAFETY: a pointer that is drawn is null, misaligned, or leads to what the header asks for, in
+        // memory that has exactly so much room; arrays that no memory can hold have counts that say so.
         unsafe { $call }
     };
 }

@@ -1,9 +1,10 @@
-//! What objects are, by slow definitions: the oracle's.
+//! Objects by slow definitions: those of the oracle.
 
 use std::{
     cell::{OnceCell, RefCell},
     collections::HashMap,
     rc::Rc,
+    sync::Arc,
 };
 
 use library::{
@@ -311,9 +312,8 @@ pub(super) struct PlannerModel {
     pub(super) begun: Option<Begun>,
     /// Whether it may have forgotten that search.
     pub(super) is_lost: bool,
-    /// What the search that was begun may call.
-    #[expect(clippy::vec_box, reason = "each is its watcher's data, and must not move")]
-    pub(super) callers: Vec<Box<Caller>>,
+    /// The watchers of the search that was begun.
+    pub(super) callers: Vec<Arc<Caller>>,
 }
 
 /// A search that was begun.

@@ -105,7 +105,8 @@ fn path(world: &mut World) {
     }
 }
 
-/// A planner forgets its search and its path at the next query. One with a mistake may be refused before that.
+/// A planner forgets its search and its path at the next query. One with a mistake may be
+/// refused before that.
 fn lost(planner: Option<&RefCell<PlannerModel>>, code: Code) {
     if let Some(planner) = planner {
         let mut planner = planner.borrow_mut();
@@ -195,7 +196,7 @@ fn find_except(world: &mut World) {
     let watcher = world.watcher(handle.id);
     asked.begun.can_stop = watcher.can_stop;
     if asked.begun.may_stop() {
-        // What stops it before the search has not looked at its ends.
+        // Stopped before the search, nobody has looked at its ends.
         world.forgive_ends();
     }
     let (starts, goals) = (world.values(&asked.begun.starts), world.values(&asked.begun.goals));

@@ -12,7 +12,7 @@ use crate::{
     points::Point,
 };
 
-/// What is wished beyond the ends of a path.
+/// The wishes beyond the ends of a path.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Wish {
     nearest: bool,

@@ -4,7 +4,7 @@ use std::{
     ffi::c_void,
     ptr,
     sync::{
-        Mutex, PoisonError,
+        Arc, Mutex, PoisonError,
         atomic::{AtomicU64, Ordering},
     },
     thread,
@@ -19,7 +19,7 @@ use crate::{
     watch::Watcher,
 };
 
-/// What a watcher's functions have as their data.
+/// The data of a watcher's functions.
 #[derive(Debug)]
 pub(super) struct Caller {
     asked: AtomicU64,
@@ -30,24 +30,22 @@ pub(super) struct Caller {
     planner: u64,
     /// Whether it calls the library.
     calls: bool,
-    /// What went wrong in a function that cannot panic.
+    /// The mistake that was seen in a function that cannot panic.
     wrong: Mutex<Option<String>>,
-    raw: Watcher,
 }
-
-// SAFETY: all that its functions share is behind locks.
-unsafe impl Sync for Caller {}
 
 /// A watcher of a call.
 pub(super) struct Drawn {
-    pub(super) caller: Box<Caller>,
+    pub(super) caller: Arc<Caller>,
+    /// The memory that `at` leads to, for as long as the call.
+    _raw: Box<Watcher>,
     pub(super) at: *const Watcher,
     /// Whether it may stop the work.
     pub(super) can_stop: bool,
 }
 
 unsafe extern "C" fn stop(data: *mut c_void) -> i32 {
-    // SAFETY: a caller is in a box that stays until no work has it.
+    // SAFETY: a caller is shared, and stays until no work has it.
     let caller = unsafe { &*data.cast::<Caller>() };
     let asked = caller.asked.fetch_add(1, Ordering::Relaxed) + 1;
     if caller.calls && asked < 3 {
@@ -117,27 +115,26 @@ impl World {
             _ => u64::MAX,
         };
         let calls = self.rng.chance(30);
-        let raw = Watcher {
+        let (asked, told, wrong) = (AtomicU64::new(0), Mutex::default(), Mutex::default());
+        let caller = Arc::new(Caller { asked, told, stop_at, planner, calls, wrong });
+        let raw = Box::new(Watcher {
             stop: self.rng.chance(80).then_some(stop),
             progress: self.rng.chance(60).then_some(progress),
-            data: ptr::null_mut(),
-        };
-        let (asked, told, wrong) = (AtomicU64::new(0), Mutex::default(), Mutex::default());
-        let mut caller = Box::new(Caller { asked, told, stop_at, planner, calls, wrong, raw });
-        caller.raw.data = ptr::from_mut(&mut *caller).cast();
-        let at = &raw const caller.raw;
-        let can_stop = caller.raw.stop.is_some() && stop_at < u64::MAX;
+            data: Arc::as_ptr(&caller).cast_mut().cast(),
+        });
+        let can_stop = raw.stop.is_some() && stop_at < u64::MAX;
+        let at = &raw const *raw;
         match self.rng.below(100) {
-            0..60 => Drawn { caller, at: ptr::null(), can_stop: false },
+            0..60 => Drawn { caller, _raw: raw, at: ptr::null(), can_stop: false },
             60 => {
                 self.wrong(Code::Argument);
-                Drawn { caller, at: at.wrapping_byte_add(1), can_stop: false }
+                Drawn { caller, _raw: raw, at: at.wrapping_byte_add(1), can_stop: false }
             }
             _ => {
                 if can_stop {
                     self.maybe(&[Code::Cancelled]);
                 }
-                Drawn { caller, at, can_stop }
+                Drawn { caller, _raw: raw, at, can_stop }
             }
         }
     }

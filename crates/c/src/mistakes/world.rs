@@ -1,4 +1,4 @@
-//! What a program holds, and what a call may return.
+//! The objects of a program, and the codes that a call may return.
 
 use std::{cell::RefCell, ffi::CStr, rc::Rc};
 
