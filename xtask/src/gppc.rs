@@ -19,8 +19,8 @@ use crate::{Error, project};
 /// The libraries, by crate: for the dynamic track, and for the other two.
 const LIBRARIES: [(&str, &str); 2] = [("mediant-gppc", "libGPPCentry.so"), ("mediant-c", "libmediant.a")];
 
-/// The tracks with entries of C++: the track's folder, and that of its entry.
-const TRACKS: [(&str, &str); 2] = [("classic", "classic"), ("any-angle", "any_angle")];
+/// The tracks with entries of C++, by their folders.
+const TRACKS: [&str; 2] = ["classic", "any-angle"];
 
 /// The options of `cargo xtask gppc`.
 #[derive(Args, Clone, Debug)]
@@ -38,16 +38,17 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let [dynamic, library] = compile()?;
     put(&dynamic, &options.into.join("dynamic/lib"))?;
     let entries = root().join("crates/gppc/entry");
-    let headers = root().join("crates/c/include");
-    for (track, entry) in TRACKS {
+    for track in TRACKS {
         let folder = options.into.join(track);
-        put(&entries.join(entry).join("Entry.cpp"), &folder)?;
-        put(&entries.join("entry.hpp"), &folder)?;
-        put(&entries.join("compile.sh"), &folder)?;
+        for from in [entries.join("shared"), entries.join(track), root().join("crates/c/include")] {
+            put_all(&from, &folder)?;
+        }
         put(&library, &folder)?;
-        put_all(&headers, &folder)?;
     }
-    println!("The entries: {}", options.into.display());
+    println!(
+        "The entries: {}. Put the files of a track's folder over those of its kit.",
+        options.into.display()
+    );
     Ok(())
 }
 

@@ -322,7 +322,7 @@ int main(int count, char **arguments) {
     return 2;
   }
   std::string folder = arguments[1];
-  int maps = count > 2 ? std::atoi(arguments[2]) : 300;
+  int maps = count > 2 ? std::atoi(arguments[2]) : 100;
   seed = count > 3 ? static_cast<unsigned>(std::atoi(arguments[3])) : seed;
   std::mt19937 random(seed);
   std::size_t paths = 0;

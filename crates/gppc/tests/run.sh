@@ -5,7 +5,7 @@
 set -eu
 [ $# -ge 1 ] || { echo "usage: $0 FOLDER [MAPS [SEED]]" >&2; exit 2; }
 entries=$(cd "$1" && pwd)
-maps=${2:-300}
+maps=${2:-100}
 seed=${3:-41}
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
