@@ -1,5 +1,5 @@
-//! `cargo xtask gppc --into FOLDER`: the entries of the Grid-Based Path Planning Competition, a folder for each
-//! track, whose files are put over those of the track's kit.
+//! `cargo xtask gppc --into FOLDER`: the entries of the Grid-Based Path Planning Competition, a folder for
+//! each track, whose files are put over those of the track's kit.
 //!
 //! The dynamic track takes a shared library. The other two take C++ that their kit compiles: the entry, the
 //! headers that it includes, the static library, and the script by which the kit compiles.
@@ -28,6 +28,9 @@ pub struct Options {
     /// The folder that gets a folder for each track
     #[arg(long, value_name = "FOLDER")]
     pub into: PathBuf,
+    /// Take what `cargo build --release -p mediant-c -p mediant-gppc` left in this folder, instead of building
+    #[arg(long, value_name = "FOLDER")]
+    pub built: Option<PathBuf>,
 }
 
 /// Compiles the libraries for release, and writes the folders. Other files in them stay.
@@ -35,7 +38,10 @@ pub struct Options {
 /// # Errors
 /// [`Error::Step`] if cargo fails, [`Error::Io`] for a file.
 pub fn run(options: &Options) -> Result<(), Error> {
-    let [dynamic, library] = compile()?;
+    let [dynamic, library] = match &options.built {
+        Some(folder) => LIBRARIES.map(|(_, name)| folder.join(name)),
+        None => compile()?,
+    };
     put(&dynamic, &options.into.join("dynamic/lib"))?;
     let entries = root().join("crates/gppc/entry");
     for track in TRACKS {

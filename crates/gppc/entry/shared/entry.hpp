@@ -1,4 +1,4 @@
-// What the entries of the classic and of the any-angle track share: a map of the harness's bits, its index in
+// Shared by the entries of the classic and of the any-angle track: a map of the harness's bits, its index in
 // the harness's file, and a planner on it.
 #ifndef MEDIANT_GPPC_ENTRY_HPP
 #define MEDIANT_GPPC_ENTRY_HPP
@@ -22,7 +22,7 @@ namespace entry {
 // of another version would not be found, and so not be refused.
 constexpr const char *NAME = "Mediant";
 
-// What a track asks for.
+// The questions of a track.
 struct track {
   // The rules of motion.
   const char *motion;
@@ -47,10 +47,11 @@ inline mediant::Map map_of(const std::vector<bool> &free, int width, int height)
   return mediant::Map(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), blocked);
 }
 
-// What is prepared of a map. By itself the library keeps hub labels where they fit in 64 bytes a cell, and at
-// least 48 MB: so of every map of games, streets and rooms. Where the map is so dense or so noisy that they
-// do not, it keeps a contraction hierarchy, or nothing if a search is faster. Maps of up to 1024 × 1024 cells
-// have labels of vertices besides, within 100 to 400 MB: with them queries take 0.6 to 1.0 of the time here.
+// The engine, with the memory that it may take for a map. By itself it keeps hub labels where they fit in 64
+// bytes a cell, and at least 48 MB: so of every map of games, streets and rooms. Where the map is so dense or
+// so noisy that they do not, it keeps a contraction hierarchy, or nothing if a search is faster. Maps of up
+// to 1024 × 1024 cells have labels of vertices besides, within 100 to 400 MB: with them queries take 0.6
+// to 1.0 of the time here.
 inline std::string engine_for(int width, int height) {
   constexpr std::int64_t CELLS = 1 << 20, BYTES_A_CELL = 384, LEAST = 100000000;
   std::int64_t cells = std::int64_t{width} * height;
