@@ -28,7 +28,7 @@ pub struct Options {
     /// The folder that gets a folder for each track
     #[arg(long, value_name = "FOLDER")]
     pub into: PathBuf,
-    /// Take what `cargo build --release -p mediant-c -p mediant-gppc` left in this folder, instead of building
+    /// Take what `cargo build --release -p mediant-c -p mediant-gppc` left in this folder, and build nothing
     #[arg(long, value_name = "FOLDER")]
     pub built: Option<PathBuf>,
 }
