@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    c, ci, describe, download, package,
+    c, ci, describe, download, gppc, package,
     program::{COMPARE, REPRODUCE, VERIFY},
     tidy, web,
 };
@@ -36,6 +36,8 @@ enum Task {
     Ci,
     /// Package the published crates, and compile them in an empty folder from their packages alone
     Package,
+    /// Build the entries of the Grid-Based Path Planning Competition, as its kits take them
+    Gppc(gppc::Options),
     /// Build the npm package and the page that shows it: target/web/package and target/web/page
     Web(web::Options),
     /// Install the library for C: libmediant, mediant.h and mediant.hpp, for pkg-config and CMake
@@ -61,6 +63,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),
+        Task::Gppc(options) => gppc::run(&options).map(done),
         Task::Web(options) => web::run(options).map(done),
         Task::C(options) => c::run(&options).map(done),
     };
