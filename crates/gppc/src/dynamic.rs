@@ -2,9 +2,9 @@
 //! queries.
 //!
 //! The harness charges the time of its calls, and a change to the query after it. So the engine is one that
-//! prepares next to nothing and whose preparation follows an edit: block-based JPS. Its dead ends make queries
-//! quicker and changes slower. They pay where many queries come between two changes: so it has them until it
-//! sees that few do.
+//! prepares next to nothing and whose preparation follows an edit: block-based JPS. Its dead ends make
+//! queries quicker and changes slower. They pay where many queries come between two changes: so it has them
+//! until it sees that few do.
 
 #![allow(unsafe_code, reason = "functions of C")]
 

@@ -19,7 +19,11 @@ use mediant_grid::{
 };
 use mediant_moves::FiniteK;
 
-use super::{DURING, cell_rows::CellRows, zone::Zone};
+use super::{
+    DURING,
+    cell_rows::{CellRows, cells_of_line},
+    zone::Zone,
+};
 
 mod answers;
 
@@ -117,29 +121,6 @@ impl JumpPointRule {
             self.ends(|ahead, beside| load(matrix.words(), at.offset(first + sign * ahead + beside * row)));
         let turned = |word: u64| if forward { word } else { word.reverse_bits() };
         JumpStops { jump: turned(ends.jump), dead: turned(ends.dead) }
-    }
-}
-
-/// The cells of the vertices of a line in the order of a jump, with those of one word before and one after.
-fn cells_of_line<P: Placement>(
-    matrix: &BitMatrix,
-    line: i32,
-    (length, forward): (u32, bool),
-    cells: &mut Vec<u64>,
-) {
-    cells.clear();
-    // No line follows the frame, and no jump asks for one.
-    let (line, last_word) = (line.min(matrix.height() as i32), length as i32 / 64 + 1);
-    if forward {
-        let before = matrix.index(-64, line).0 as usize / 64;
-        cells.extend(matrix.words()[before..].iter().take(last_word as usize + 2));
-        // The last word may hold no vertex.
-        cells.resize(last_word as usize + 2, !0);
-    } else {
-        // The cell of the first vertex is the last one of 64.
-        let first = matrix.index(length as i32 - 1 + P::cell(-1, 0) - 63, line);
-        let word = |word: i32| load(matrix.words(), first.offset(-64 * word)).reverse_bits();
-        cells.extend((-1..=last_word).map(word));
     }
 }
 

@@ -1,6 +1,6 @@
 //! Rows of cells by words: those around 64 vertices of a row, and where axial jumps end among these.
 
-use mediant_grid::{BitMatrix, Grid, GridGraph, Interrupt, Interrupted, Placement};
+use mediant_grid::{BitMatrix, Grid, GridGraph, Interrupt, Interrupted, Placement, load};
 
 use super::{
     DURING,
@@ -56,6 +56,29 @@ impl Around {
             1 => at >> 1 | after << 63,
             _ => at << 1 | before >> 63,
         }
+    }
+}
+
+/// The cells of the vertices of a line in the order of a jump, with those of one word before and one after.
+pub(super) fn cells_of_line<P: Placement>(
+    matrix: &BitMatrix,
+    line: i32,
+    (length, forward): (u32, bool),
+    cells: &mut Vec<u64>,
+) {
+    cells.clear();
+    // No line follows the frame, and no jump asks for one.
+    let (line, last_word) = (line.min(matrix.height() as i32), length as i32 / 64 + 1);
+    if forward {
+        let before = matrix.index(-64, line).0 as usize / 64;
+        cells.extend(matrix.words()[before..].iter().take(last_word as usize + 2));
+        // The last word may hold no vertex.
+        cells.resize(last_word as usize + 2, !0);
+    } else {
+        // The cell of the first vertex is the last one of 64.
+        let first = matrix.index(length as i32 - 1 + P::cell(-1, 0) - 63, line);
+        let word = |word: i32| load(matrix.words(), first.offset(-64 * word)).reverse_bits();
+        cells.extend((-1..=last_word).map(word));
     }
 }
 
