@@ -171,7 +171,7 @@ typedef struct {
   int32_t y;
 } mediant_cell;
 
-// What an engine prepared of a space. It never changes; any number of threads may use it. `{0}` is no index.
+// A space, prepared for an engine. It never changes; any number of threads may use it. `{0}` is no index.
 typedef struct {
   // Its number.
   uint64_t id;
@@ -478,8 +478,8 @@ mediant_code mediant_field_path_from(mediant_field field,
                                      size_t room,
                                      size_t *count);
 
-// A path from any of several starts to any of several goals, in one call. Space and engine are chosen by what
-// is asked, and kept with the map for the next call. `words` has parameters of all kinds, as in
+// A path from any of several starts to any of several goals, in one call. Space and engine are chosen by
+// what is asked, and kept with the map for the next call. `words` has parameters of all kinds, as in
 // `"k=any gap=closed nearest"`; null is none. The path is a batch with this path alone, as that of
 // `mediant_space_path`. For many paths prepare an index, and ask a planner.
 //
@@ -616,7 +616,7 @@ mediant_code mediant_index_setup(mediant_index index,
                                  size_t room,
                                  size_t *length);
 
-// How much longer than the shortest path at any angle the paths of an index can be: 1.08 is 8 %. NaN where no
+// How much longer than the shortest path at any angle paths of an index can be: 1.08 is 8 %. NaN where no
 // bound is proven.
 //
 // Required:

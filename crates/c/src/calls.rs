@@ -64,12 +64,7 @@ fn find(map: &str, case: &Value, words: &str) -> Result<(Answer, Vec<Point>), Co
 
 fn check(case: &Value, map: &str, words: &str) {
     let expected = &case["expected"];
-    let found = find(map, case, words);
-    if case.get("published").is_some() {
-        assert!(found.is_err(), "options that only reproduce a publication are in the program: {case}");
-        return;
-    }
-    match found {
+    match find(map, case, words) {
         Err(code) => {
             let has_number = case["call"].as_object().is_some_and(|call| call.values().any(Value::is_number));
             let known = match expected["code"].as_str() {
@@ -110,12 +105,14 @@ fn every_call_of_the_table_is_answered_as_it_says() {
     };
     let mut tried = 0;
     for case in table["cases"].as_array().expect("calls") {
-        if let Some(words) = words(&case["call"]) {
+        // Options that only reproduce a publication are there where another crate of the build has them.
+        let is_published = case.get("published").is_some();
+        if let Some(words) = words(&case["call"]).filter(|_| !is_published) {
             check(case, &map(&case["map"]), &words);
             tried += 1;
         }
     }
-    assert!(tried >= 130, "{tried} calls");
+    assert!(tried >= 120, "{tried} calls");
 }
 
 /// All functions, but for those that free and those that tell of others, are in the table of what can be
