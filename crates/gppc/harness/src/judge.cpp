@@ -113,10 +113,13 @@ Verdict judge_by(Track track, const Map &map, const Query &query, const Answer &
     verdict.length = 0;
     verdict.valid = verdict.optimal = true;
   } else {
+    // Without a length it can be told at any angle whether there is a path, whatever the file says of cells.
+    bool is_asked = track == Track::any_angle && !shortest.known;
+    bool some = is_asked ? joined_by_points(map, query.start, query.goal) : shortest.some;
     verdict.none = true;
-    verdict.unknown = !shortest.known && !shortest.some;
-    verdict.valid = verdict.optimal = shortest.none;
-    verdict.why = shortest.some ? "no path is given, but there is one" : "";
+    verdict.unknown = !is_asked && !shortest.known && !shortest.some;
+    verdict.valid = verdict.optimal = is_asked ? !some : shortest.none;
+    verdict.why = some ? "no path is given, but there is one" : "";
   }
   return verdict;
 }

@@ -16,6 +16,9 @@ std::optional<Octile> shortest_by_cells(const Map &map, Cell start, Cell goal);
 // Of the any-angle track, by Dijkstra's algorithm over all corners that see each other. For small maps.
 std::optional<long double> shortest_by_points(const Map &map, Cell start, Cell goal);
 
+// Whether a path of the any-angle track leads there: from cell to cell across sides, since it passes no gap.
+bool joined_by_points(const Map &map, Cell start, Cell goal);
+
 } // namespace harness
 
 #endif

@@ -1,6 +1,7 @@
 #include "check_points.h"
 #include "reference.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -35,7 +36,41 @@ long double distance(Cell a, Cell b) {
   return std::hypot(static_cast<long double>(a.x - b.x), static_cast<long double>(a.y - b.y));
 }
 
+// The free cells at an end through which a path may leave it.
+std::vector<Cell> cells_at(const Map &map, Cell end) {
+  if (is_double_corner(map, end.x, end.y)) {
+    return {end};
+  }
+  std::vector<Cell> cells;
+  for (Cell at : {end, Cell{end.x - 1, end.y}, Cell{end.x, end.y - 1}, Cell{end.x - 1, end.y - 1}}) {
+    if (map.free(at)) {
+      cells.push_back(at);
+    }
+  }
+  return cells;
+}
+
 } // namespace
+
+bool joined_by_points(const Map &map, Cell start, Cell goal) {
+  if (!map.free(start) || !map.free(goal)) {
+    return false;
+  }
+  std::vector<bool> reached(map.cells(), false);
+  std::vector<Cell> open = cells_at(map, start);
+  while (!open.empty()) {
+    Cell at = open.back();
+    open.pop_back();
+    if (map.free(at) && !reached[map.index(at.x, at.y)]) {
+      reached[map.index(at.x, at.y)] = true;
+      open.insert(open.end(), {{at.x + 1, at.y}, {at.x - 1, at.y}, {at.x, at.y + 1}, {at.x, at.y - 1}});
+    }
+  }
+  std::vector<Cell> ends = cells_at(map, goal);
+  return start == goal || std::any_of(ends.begin(), ends.end(), [&](Cell at) {
+           return reached[map.index(at.x, at.y)];
+         });
+}
 
 std::optional<long double> shortest_by_points(const Map &map, Cell start, Cell goal) {
   if (!map.free(start) || !map.free(goal)) {

@@ -230,6 +230,32 @@ void test_lengths() {
   IS(*shortest_by_points(gap, {2, 2}, {1, 1}) == 4 && *shortest_by_points(gap, {1, 1}, {2, 2}) == 4);
 }
 
+// Whether there is a path is told by cells as by a search.
+void test_joined(std::uint64_t seed) {
+  int joined = 0, apart = 0;
+  for (std::size_t number = 0; number < 200; ++number) {
+    Random random(seed + number);
+    Map map(random.between(2, 9), random.between(2, 9), true);
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) {
+        map.set(x, y, !random.chance(45));
+      }
+    }
+    for (int i = 0; i < 20; ++i) {
+      Cell start{random.between(0, map.width() - 1), random.between(0, map.height() - 1)};
+      Cell goal{random.between(0, map.width() - 1), random.between(0, map.height() - 1)};
+      bool is_joined = joined_by_points(map, start, goal);
+      if (is_joined != shortest_by_points(map, start, goal).has_value()) {
+        auto at = static_cast<int>(seed + number);
+        std::fprintf(stderr, "seed %d: (%d, %d) to (%d, %d)\n", at, start.x, start.y, goal.x, goal.y);
+        IS(false);
+      }
+      ++(is_joined ? joined : apart);
+    }
+  }
+  IS(joined > 500 && apart > 500);
+}
+
 void test_charge() {
   Charge charge;
   charge.change(100);
@@ -375,6 +401,7 @@ int main(int count, char **words) {
   test_other_points();
   test_scaled(1);
   test_lengths();
+  test_joined(1);
   test_charge();
   test_generated(1);
   test_files(words[1]);
