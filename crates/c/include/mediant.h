@@ -338,7 +338,7 @@ mediant_code mediant_moves(uint32_t k,
                            size_t room,
                            size_t *count);
 
-// How much longer than the shortest at any angle the shortest paths of a motion can be: 1.08 is 8 %. NaN
+// The bound of a motion: its shortest paths over the shortest at any angle, at most. 1.08 is 8 %. NaN
 // where no bound is proven.
 //
 // Required:
@@ -616,7 +616,7 @@ mediant_code mediant_index_setup(mediant_index index,
                                  size_t room,
                                  size_t *length);
 
-// How much longer than the shortest path at any angle paths of an index can be: 1.08 is 8 %. NaN where no
+// The bound of an index: its paths over the shortest at any angle, at most. 1.08 is 8 %. NaN where no
 // bound is proven.
 //
 // Required:
@@ -898,8 +898,8 @@ mediant_code mediant_planner_step(mediant_planner planner,
                                   int32_t *done,
                                   mediant_answer *answer);
 
-// How far the search is that was begun: the number of its expansions, and a lower bound on the length of the
-// path that is sought. 0 without one.
+// The progress of the search that was begun: the number of its expansions, and a lower bound on the length
+// of the path that is sought. 0 without one.
 //
 // Required:
 // Both lead to memory for a number.

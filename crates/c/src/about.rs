@@ -76,7 +76,7 @@ pub unsafe extern "C" fn mediant_moves(k: u32, moves: *mut Cell, room: usize, co
     })
 }
 
-/// How much longer than the shortest at any angle the shortest paths of a motion can be: 1.08 is 8 %. NaN
+/// The bound of a motion: its shortest paths over the shortest at any angle, at most. 1.08 is 8 %. NaN
 /// where no bound is proven.
 ///
 /// # Safety

@@ -84,8 +84,8 @@ pub(crate) struct Table<T> {
 /// for one another.
 #[repr(align(64))]
 struct Place<T> {
-    /// How often it was taken. It is looked at before the lock: so a handle that was freed does not lock the
-    /// object that is there now, whose owner would be told that it is busy.
+    /// The count of its takings. It is looked at before the lock: so a handle that was freed does not lock
+    /// the object that is there now, whose owner would be told that it is busy.
     taken: AtomicU32,
     object: Mutex<Option<T>>,
 }

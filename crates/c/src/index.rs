@@ -271,7 +271,7 @@ pub unsafe extern "C" fn mediant_index_setup(
     })
 }
 
-/// How much longer than the shortest path at any angle paths of an index can be: 1.08 is 8 %. NaN where no
+/// The bound of an index: its paths over the shortest at any angle, at most. 1.08 is 8 %. NaN where no
 /// bound is proven.
 ///
 /// # Safety

@@ -289,8 +289,8 @@ pub unsafe extern "C" fn mediant_planner_step(
     })
 }
 
-/// How far the search is that was begun: the number of its expansions, and a lower bound on the length of the
-/// path that is sought. 0 without one.
+/// The progress of the search that was begun: the number of its expansions, and a lower bound on the length
+/// of the path that is sought. 0 without one.
 ///
 /// # Safety
 /// Both lead to memory for a number.

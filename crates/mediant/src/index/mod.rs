@@ -90,9 +90,9 @@ impl Space {
 
     /// [`prepare`](Self::prepare) for a single path: what takes longer than it saves one is left out. That
     /// is the dead ends of [`Engine::Anya`] and [`Engine::JpsBlock`]; all other engines' indexes are the
-    /// same. [Repairs](Index::repair) leave out the same: that of block-based JPS takes about 0.6 of the
-    /// time, its queries 1.1 to 1.6 times as long. So on small maps that change every few queries it is the
-    /// quicker one.
+    /// same. [Repairs](Index::repair) leave out the same. Those of block-based JPS take 0.5 to 0.6 of the
+    /// instructions, its queries 1.1 to 1.6 times as many: that pays where some thirty to seventy queries or
+    /// fewer come between two changes.
     ///
     /// ```
     /// use mediant::{Engine, K, Map, Motion, Query};
