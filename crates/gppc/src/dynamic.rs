@@ -67,8 +67,8 @@ struct Entry {
     points: Vec<Point>,
 }
 
-/// With so many queries a change, dead ends save about as many instructions as they cost: 75 on a map of 281 ×
-/// 209 cells with small changes, 28 on one of 1024 × 1024 cells with large ones.
+/// With so many queries a change, dead ends save about as many instructions as they cost: 75 on a map of 281
+/// × 209 cells with small changes, 28 on one of 1024 × 1024 cells with large ones.
 const QUERIES_A_CHANGE: u64 = 60;
 
 impl Patch {
