@@ -69,12 +69,30 @@ pub(crate) fn preparing(call: &Call, watch: &Watch) -> Limits {
 
 /// Limits with the time that a call may take, from now on.
 fn timed(call: &Call, limits: Limits) -> Limits {
-    let most = call.wishes().timeout.map(|milliseconds| Duration::try_from_secs_f64(milliseconds / 1000.0));
-    // More than a clock can count is no limit.
-    if let Some(Ok(most)) = most { limits.time(most) } else { limits }
+    match call.wishes().timeout.and_then(milliseconds) {
+        Some(most) => limits.time(most),
+        None => limits,
+    }
+}
+
+/// A time in milliseconds. More than a clock can count is no limit.
+fn milliseconds(time: f64) -> Option<Duration> {
+    Duration::try_from_secs_f64(time / 1000.0).ok()
 }
 
 /// The limits of what is no search.
 pub(crate) fn limits(watch: &Watch) -> Limits {
     watch.limit(Limits::new())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_in_milliseconds() {
+        assert_eq!(milliseconds(1500.0), Some(Duration::from_millis(1500)));
+        assert_eq!(milliseconds(0.25), Some(Duration::from_micros(250)));
+        assert_eq!(milliseconds(f64::MAX), None);
+    }
 }
