@@ -2,13 +2,18 @@
 //!
 //! The library describes itself in `docs/description.json`, which a test of `mediant` holds to the code. From
 //! that file follow the keywords of Python's stub, the interfaces of TypeScript, and tables in Markdown: the
-//! regions between a line with `described: NAME` and one with `described: end`. `tidy` compares them.
+//! regions between a line with `described: NAME` and one with `described: end`. So do the tables of
+//! `docs/proof.md` from the records in `docs/proof`. `tidy` compares them.
 
 mod markdown;
 mod python;
+mod records;
 mod typescript;
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use mediant_sets::root;
 use serde::Deserialize;
@@ -93,16 +98,16 @@ impl Parameter {
     }
 }
 
-/// A part of a file that is written from the description.
+/// A part of a file that is written from the description, or from a record.
 struct Region {
     file: &'static str,
-    name: &'static str,
+    name: String,
     text: String,
 }
 
 /// All regions.
 fn regions(description: &Description) -> Vec<Region> {
-    let region = |file, name, text| Region { file, name, text };
+    let region = |file, name: &str, text| Region { file, name: name.to_owned(), text };
     let packages = &description.without_publications();
     vec![
         region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(packages)),
@@ -115,7 +120,9 @@ fn regions(description: &Description) -> Vec<Region> {
 
 /// A file with a region in its place; `None` if it has no such region.
 fn replaced(file: &str, region: &Region) -> Option<String> {
-    let begin = file.find(&format!("described: {}", region.name))?;
+    let mark = format!("described: {}", region.name);
+    let is_whole = |at: &usize| file[at + mark.len()..].starts_with(char::is_whitespace);
+    let begin = file.match_indices(&mark).map(|(at, _)| at).find(is_whole)?;
     let begin = begin + file[begin..].find('\n')? + 1;
     let end = begin + file[begin..].find("described: end")?;
     // The line of the mark stays whole.
@@ -136,13 +143,17 @@ pub fn outdated(tree: &Tree) -> Result<Vec<(PathBuf, String)>, String> {
     let description: Description =
         serde_json::from_str(text(FILE)?).map_err(|error| format!("{FILE}: {error}"))?;
     let mut changed: Vec<(PathBuf, String)> = Vec::new();
-    for region in regions(&description) {
-        let known = text(region.file)?;
+    for region in regions(&description).into_iter().chain(records::regions(tree)?) {
+        // A file has several regions.
+        let at = changed.iter().position(|(path, _)| path == Path::new(region.file));
+        let known = at.map_or_else(|| text(region.file), |at| Ok(changed[at].1.as_str()))?;
         let written = replaced(known, &region).ok_or_else(|| {
             format!("{} has no lines `described: {}` and `described: end`", region.file, region.name)
         })?;
-        if written != known {
-            changed.push((region.file.into(), written));
+        match at {
+            Some(at) => changed[at].1 = written,
+            None if written != known => changed.push((region.file.into(), written)),
+            None => {}
         }
     }
     changed.extend(python::signatures(&description.without_publications(), tree)?);

@@ -76,7 +76,7 @@ const LAYERS: [Layer; 19] = [
         &[MOVES, GRID, SEARCH, SUBGOAL, LIBRARY, FORMATS, ORACLE, REPORT, SETS, BENCH],
         "the papers are reproduced by the library, not by the program",
     ),
-    layer("xtask", &[SETS], "chores that run engines are programs of other crates"),
+    layer("xtask", &[REPORT, SETS], "chores that run engines are programs of other crates"),
 ];
 
 const MOVES: &str = "mediant-moves";
