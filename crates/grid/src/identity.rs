@@ -238,7 +238,8 @@ impl Identity {
         bytes
     }
 
-    /// The identity from its bytes; `None` if they stand for none.
+    /// The identity from its bytes; `None` if they stand for none. Each identity has one form: bytes that are
+    /// read are those that [`to_bytes`](Self::to_bytes) writes.
     #[must_use]
     pub fn from_bytes(bytes: [u8; Self::BYTES]) -> Option<Self> {
         let (words, _) = bytes.as_chunks::<4>();
@@ -250,7 +251,8 @@ impl Identity {
             k => Some(K::Finite(FiniteK::new(k).ok()?)),
         };
         let rules = Rules::of_number(rules as usize)?;
-        Some(Self { map: (width > 0).then_some(map), rules, k })
+        let identity = Self { map: (width > 0 && height > 0).then_some(map), rules, k };
+        (identity.to_bytes() == bytes).then_some(identity)
     }
 }
 
@@ -280,7 +282,8 @@ mod tests {
             }
         }
         let bytes = Identity { map: None, rules: Rules::ALL[0], k: None }.to_bytes();
-        for (at, wrong) in [(24, 7), (28, 1)] {
+        // A width, a height or a digest alone are those of no map.
+        for (at, wrong) in [(24, 7), (28, 1), (0, 5), (4, 5), (8, 1), (23, 255)] {
             let mut bytes = bytes;
             bytes[at] = wrong;
             assert_eq!(Identity::from_bytes(bytes), None, "byte {at}");
