@@ -244,3 +244,25 @@ fn fields_from_points_follow_edits() {
     }
     assert!(same > 100, "{same}");
 }
+
+/// A limit that is a path's own length lets it through, however near its ends are to each other: the rounding of
+/// its cost is then more than the 2⁻³¹ of itself by which a limit is longer.
+#[test]
+fn a_limit_at_the_length_between_the_nearest_points_is_met() {
+    let space = Map::from_rows(["...", "...", "..."]).expect("a map");
+    let space = space.space(Motion::corners(K::ANY)).expect("any angle");
+    let near = 1.0 / 1024.0;
+    for engine in ENGINES {
+        let mut planner = space.planner(engine).expect("a small map");
+        for (dx, dy) in [(1.0, 0.0), (1.0, 1.0), (2.0, 1.0), (3.0, 2.0), (5.0, 3.0), (13.0, 8.0)] {
+            let (start, goal) = ((1.25, 1.25), (1.25 + dx * near, 1.25 + dy * near));
+            let length = planner.path(start, goal).expect("free ends").expect("open ground").cost();
+            let mut within = |cost| {
+                let query = Query::new(start, goal).within(Limits::new().cost(cost));
+                planner.find(query).expect("free ends").path().is_some()
+            };
+            assert!(within(length), "{engine}: {dx}, {dy}");
+            assert!(!within(length * 0.999), "{engine}: {dx}, {dy}");
+        }
+    }
+}
