@@ -33,10 +33,10 @@ pub enum CostsError {
         /// The number of cells.
         expected: u64,
     },
-    /// A cost that is zero, negative, infinite or not a number.
+    /// A cost that is no number from 10⁻¹²⁰ to 10¹²⁰.
     #[error(
-        "the cost of cell ({x}, {y}) is {cost}: it must be a positive number; a cell that cannot be entered is \
-         marked as blocked, not by its cost"
+        "the cost of cell ({x}, {y}) is {cost}: it must be a positive number, from 1e-120 to 1e120; a cell that cannot be \
+         entered is marked as blocked, not by its cost"
     )]
     Cost {
         /// The column.
@@ -57,8 +57,12 @@ pub enum CostsError {
         /// The greatest.
         greatest: f64,
     },
-    /// The width or the height of a cell is no positive number, or one is more than 65,536 times the other.
-    #[error("cells of {x} × {y}: width and height must be positive numbers")]
+    /// The width or the height of a cell is no number from 10⁻¹²⁰ to 10¹²⁰, or one is more than 65,536 times the
+    /// other.
+    #[error(
+        "cells of {x} × {y}: width and height must be positive numbers, from 1e-120 to 1e120, and neither more than \
+         65,536 times the other"
+    )]
     CellSize {
         /// The width.
         x: f64,

@@ -31,6 +31,9 @@ pub(crate) struct Scale {
 
 /// The most and the fewest binary digits below the least cost of a straight move.
 const DIGITS: (i32, i32) = (32, 14);
+/// The least and the greatest cost, time, friction or side of a cell. A product of two, on the largest map, and
+/// its unit are then numbers of `f64` of full precision: further out a unit becomes 0, or a length infinite.
+const AMOUNTS: (f64, f64) = (1e-120, 1e120);
 /// The greatest ratio of two costs that are not integers: each is then rounded by 2⁻¹⁷ of itself at most.
 pub(crate) const GREATEST_RATIO: f64 = (1_u64 << 16) as f64;
 
@@ -94,10 +97,14 @@ impl Scale {
     }
 }
 
+/// Whether a number can be a cost, a time, or the side of a cell.
+pub(crate) fn is_amount(number: f64) -> bool {
+    number >= AMOUNTS.0 && number <= AMOUNTS.1
+}
+
 /// Checks the width and the height of a cell.
 pub(crate) fn check_cell_size((x, y): (f64, f64)) -> Result<(), CostsError> {
-    let is_size = |side: f64| side.is_finite() && side > 0.0;
-    let fits = is_size(x) && is_size(y) && x.max(y) / x.min(y) <= GREATEST_RATIO;
+    let fits = is_amount(x) && is_amount(y) && x.max(y) / x.min(y) <= GREATEST_RATIO;
     if fits { Ok(()) } else { Err(CostsError::CellSize { x, y }) }
 }
 

@@ -4,7 +4,11 @@ use std::fmt;
 
 use mediant_grid::{Grid, Interrupt, MapId, Versioned};
 
-use crate::{error::CostsError, layout::Layout, scale::Scale};
+use crate::{
+    error::CostsError,
+    layout::Layout,
+    scale::{Scale, is_amount},
+};
 
 /// A cost surface: a map whose free cells have a cost a unit of length.
 ///
@@ -60,7 +64,7 @@ struct Bounds {
 
 impl Bounds {
     fn include(&mut self, (x, y): (u32, u32), cost: f64) -> Result<(), CostsError> {
-        if !(cost.is_finite() && cost > 0.0) {
+        if !is_amount(cost) {
             return Err(CostsError::Cost { x, y, cost });
         }
         self.has_fractions |= cost.fract() != 0.0;
@@ -292,7 +296,7 @@ impl CostSurface {
             }
             let weight = match cost {
                 None => 0,
-                Some(cost) if !(cost.is_finite() && cost > 0.0) => {
+                Some(cost) if !is_amount(cost) => {
                     return Err(CostsError::Cost { x, y, cost });
                 }
                 Some(cost) => match self.scale.weight(cost) {

@@ -37,8 +37,8 @@ pub enum WalkingError {
         /// The elevation.
         elevation: f64,
     },
-    /// A friction that is negative, infinite or not a number.
-    #[error("the friction of cell ({x}, {y}) is {friction}: it must be a number from 0 on")]
+    /// A friction that is neither 0 nor from 10⁻¹²⁰ to 10¹²⁰.
+    #[error("the friction of cell ({x}, {y}) is {friction}: it must be 0, or from 1e-120 to 1e120")]
     Friction {
         /// The column.
         x: u32,
@@ -52,8 +52,8 @@ pub enum WalkingError {
     Table,
     /// A pace that is no positive number on a slope of the map.
     #[error(
-        "the slopes of the map are up to {steepest}, and the least time of a unit of length between is {time}: it \
-         must be a positive number"
+        "the slopes of the map are up to {steepest}, and a time of a unit of length between is {time}: it must be a \
+         positive number, from 1e-120 to 1e120"
     )]
     Pace {
         /// The steepest slope.

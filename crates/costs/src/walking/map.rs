@@ -11,7 +11,7 @@ use super::{
 use crate::{
     error::CostsError,
     layout::Layout,
-    scale::{check_cell_size, exp2, exponent, floor_log2},
+    scale::{check_cell_size, exp2, exponent, floor_log2, is_amount},
 };
 
 /// A map to walk on: cells with an elevation, which is that of their centers, and the pace by the slope.
@@ -128,7 +128,7 @@ impl<G: Fn(u32, u32) -> Option<(f64, f64)>> Cells<'_, G> {
             if !elevation.is_finite() {
                 return Err(WalkingError::Elevation { x, y, elevation });
             }
-            if !(friction.is_finite() && friction >= 0.0) {
+            if !(friction == 0.0 || is_amount(friction)) {
                 return Err(WalkingError::Friction { x, y, friction });
             }
             let [elevations, frictions] =
@@ -169,11 +169,10 @@ impl Friction {
     }
 }
 
-/// The bounds of the times of knots; a time that is not a number is the least.
-fn times_of(knots: &[(f64, f64)]) -> (f64, f64) {
-    let times = knots.iter().map(|&(_, time)| time);
-    times.fold((f64::INFINITY, 0.0), |(least, greatest), time| {
-        (if time >= least { least } else { time }, greatest.max(time))
+/// The bounds of the times of knots; the first that can be no time, if there is one.
+fn times_of(knots: &[(f64, f64)]) -> Result<(f64, f64), f64> {
+    knots.iter().try_fold((f64::INFINITY, 0.0_f64), |(least, greatest), &(_, time)| {
+        if is_amount(time) { Ok((time.min(least), time.max(greatest))) } else { Err(time) }
     })
 }
 
@@ -254,10 +253,7 @@ impl WalkingMap {
         let heights = cells.numbers(BLOCKED, |elevation, _| above(elevation))?;
         let steepest = steepest(layout, &heights, cell_size, interrupt)? * exp2(height_exponent);
         let knots = clip(&pace.knots(steepest)?, steepest);
-        let (least, greatest) = times_of(&knots);
-        if !(least > 0.0 && greatest.is_finite()) {
-            return Err(WalkingError::Pace { steepest, time: least });
-        }
+        let (least, greatest) = times_of(&knots).map_err(|time| WalkingError::Pace { steepest, time })?;
         let (least, greatest) = (least + smooth, greatest + rough);
         let range = WalkingError::Range { least, greatest, steepest };
         if steepest > STEEPEST || greatest > least * GREATEST_RATIO {

@@ -8,13 +8,29 @@ use mediant_moves::FiniteK;
 
 #[test]
 fn bad_costs_are_named_with_their_cell() {
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e-121, 1e121] {
         let map = CostSurface::from_fn(4, 3, |x, y| Some(if (x, y) == (2, 1) { bad } else { 1.0 }));
         let error = map.expect_err("no cost");
         assert!(matches!(error, CostsError::Cost { x: 2, y: 1, .. }), "{error}");
         assert!(error.to_string().contains("blocked"), "{error}");
         let fine = CostSurface::from_fn(4, 3, |_, _| Some(1.0)).expect("costs of 1");
         assert!(matches!(fine.edit([(2, 1, Some(bad))]), Err(CostsError::Cost { x: 2, y: 1, .. })));
+    }
+}
+
+/// Units are neither 0 nor infinite, however small or large all costs are.
+#[test]
+fn the_least_and_the_greatest_costs_and_sides_are_exact() {
+    for (cost, side) in [(1e-120, 1e-120), (1e120, 1e120), (1e-120, 1e120), (1e120, 1e-120)] {
+        let map = CostSurface::with_cells((40, 1), (side, side), &Interrupt::NEVER, |_, _| Some(cost))
+            .expect("a map");
+        let rules = Rules::Center(CornerRule::Never);
+        let graph = CostGraph::new(Arc::new(map), rules, FiniteK::N8).expect("k = 3");
+        let query = [Vertex::new(0, 0)];
+        let field = CostField::new(Arc::new(graph), CostFieldQuery::new(&query), &Interrupt::NEVER);
+        let found = field.expect("a field").get(Vertex::new(39, 0)).expect("open ground");
+        let expected = 39.0 * cost * side;
+        assert!((found / expected - 1.0).abs() < 1e-9, "{cost} {side}: {found}, not {expected}");
     }
 }
 
@@ -30,7 +46,8 @@ fn sizes_are_refused_before_a_cell_is_asked_for() {
 fn ranges_k_cells_and_sources_are_checked() {
     let wide = CostSurface::from_fn(2, 1, |x, _| Some(if x == 0 { 1e-6 } else { 1.5 }));
     assert!(matches!(wide, Err(CostsError::Range { .. })));
-    for cell_size in [(0.0, 1.0), (1.0, -2.0), (f64::NAN, 1.0), (1.0, 1e9)] {
+    for cell_size in [(0.0, 1.0), (1.0, -2.0), (f64::NAN, 1.0), (1.0, 1e9), (1e-121, 1e-121), (1e121, 1e121)]
+    {
         let map = CostSurface::with_cells((2, 2), cell_size, &Interrupt::NEVER, |_, _| Some(1.0));
         assert!(matches!(map, Err(CostsError::CellSize { .. })));
     }

@@ -21,7 +21,9 @@ fn bad_ground_is_named_with_its_cell() {
         };
         assert!(matches!(of(bad, 0.0), Err(WalkingError::Elevation { x: 2, y: 1, .. })));
         assert!(matches!(of(1.0, bad), Err(WalkingError::Friction { x: 2, y: 1, .. })));
-        assert!(matches!(of(1.0, -0.5), Err(WalkingError::Friction { x: 2, y: 1, .. })));
+        for friction in [-0.5, 1e-121, 1e121] {
+            assert!(matches!(of(1.0, friction), Err(WalkingError::Friction { x: 2, y: 1, .. })));
+        }
     }
     let of = |size, cell_size| {
         WalkingMap::new(size, cell_size, &Pace::Tobler, &Interrupt::NEVER, |_, _| Some(0.0))
@@ -40,7 +42,11 @@ fn a_pace_is_positive_on_the_slopes_of_the_map() {
     for bad in [&[][..], &[(0.1, 1.0), (0.0, 1.0)], &[(f64::NAN, 1.0)], &[(0.0, 1.0), (f64::INFINITY, 1.0)]] {
         assert!(matches!(table(bad), Err(WalkingError::Table)), "{bad:?}");
     }
-    for time in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+    for time in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-121, 1e121] {
+        // The first and the last of several count, too.
+        for knots in [[(-0.05, time), (0.05, 1.0)], [(-0.05, 1.0), (0.05, time)]] {
+            assert!(matches!(table(&knots), Err(WalkingError::Pace { .. })), "{knots:?}");
+        }
         assert!(matches!(table(&[(0.0, time)]), Err(WalkingError::Pace { .. })), "{time}");
         assert!(
             matches!(table(&[(-9.0, 1.0), (0.0, time), (9.0, 1.0)]), Err(WalkingError::Pace { .. })),
