@@ -49,6 +49,12 @@ pub enum Error {
         /// Their number.
         count: usize,
     },
+    /// Inputs that a fuzzing target treats wrongly; each was printed with its message.
+    #[error("inputs that are treated wrongly: {}", files.len())]
+    Found {
+        /// Their files.
+        files: Vec<PathBuf>,
+    },
     /// A command that failed, or could not be started.
     #[error("`{command}` failed")]
     Step {

@@ -2,7 +2,7 @@
 //!
 //! **The key decision: chores are Rust, and thin.** No shell script, so that they run on every system that
 //! Rust runs on; and no engine, so that `cargo xtask tidy` compiles none. `download`, `tidy`, `package`,
-//! `web`, `c`, `gppc` and `ci` are modules here; the rules of `tidy` are an ordinary test as well. `verify`,
+//! `web`, `c`, `gppc`, `fuzz` and `ci` are modules here; the rules of `tidy` are an ordinary test as well. `verify`,
 //! `compare` and `reproduce-tables` run engines: they are programs of `mediant-bench` and `mediant-papers`,
 //! to which [`program`] hands all arguments on.
 //!
@@ -15,6 +15,7 @@ pub mod ci;
 pub mod describe;
 pub mod download;
 mod error;
+pub mod fuzz;
 pub mod gppc;
 pub mod package;
 pub mod program;

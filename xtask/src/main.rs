@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    c, ci, describe, download, gppc, package,
+    c, ci, describe, download, fuzz, gppc, package,
     program::{COMPARE, REPRODUCE, VERIFY},
     tidy, web,
 };
@@ -40,6 +40,8 @@ enum Task {
     Gppc(gppc::Options),
     /// Build the npm package and the page that shows it: target/web/package and target/web/page
     Web(web::Options),
+    /// Fuzz what reads bytes and answers questions, by libFuzzer, and add up what ran
+    Fuzz(fuzz::Options),
     /// Install the library for C: libmediant, mediant.h and mediant.hpp, for pkg-config and CMake
     C(c::Options),
 }
@@ -65,6 +67,7 @@ fn main() -> ExitCode {
         Task::Package => package::run().map(done),
         Task::Gppc(options) => gppc::run(&options).map(done),
         Task::Web(options) => web::run(options).map(done),
+        Task::Fuzz(options) => fuzz::run(&options).map(done),
         Task::C(options) => c::run(&options).map(done),
     };
     outcome.unwrap_or_else(|error| {

@@ -1,0 +1,224 @@
+//! `cargo xtask fuzz`: runs the targets of `crates/fuzz` by libFuzzer, and adds up what ran.
+//!
+//! The targets take turns. Each begins with its kept inputs, with valid ones that the library writes, and with
+//! what earlier runs on this machine found, in `target/fuzz`. A turn ends when the target's share of the time is
+//! over, or when it was quiet: when it has reached no new edge of the code for so long. The record,
+//! `docs/proof/fuzzing.json`, adds up the executions, so that fuzzing goes on from day to day.
+
+mod log;
+mod record;
+
+use std::{
+    env, fs,
+    io::{BufRead, BufReader},
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+    time::{Duration, Instant},
+};
+
+use clap::Args;
+use mediant_sets::root;
+
+use self::{log::Log, record::Turn};
+use crate::Error;
+
+/// The options of `cargo xtask fuzz`.
+#[derive(Args, Clone, Debug)]
+pub struct Options {
+    /// The targets; all without any
+    targets: Vec<String>,
+    /// The minutes of all targets together
+    #[arg(long, value_name = "N", default_value = "10")]
+    minutes: f64,
+    /// Ends a target's turn when it has reached no new edge for so many minutes
+    #[arg(long, value_name = "N", default_value = "30")]
+    quiet: f64,
+    /// Add what ran to the record, docs/proof/fuzzing.json
+    #[arg(long)]
+    record: bool,
+    /// Keep the smallest inputs that reach as many edges, in crates/fuzz/corpus
+    #[arg(long)]
+    keep: bool,
+    /// Watch memory by a sanitizer of Rust: address, leak
+    #[arg(long, value_name = "NAME", default_value = "none")]
+    sanitizer: String,
+}
+
+/// The most inputs of a target that are kept, and the most bytes of each.
+const KEPT: (usize, u64) = (25, 600);
+
+/// Runs the targets.
+///
+/// # Errors
+/// [`Error::Lacking`] without nightly Rust or cargo-fuzz; [`Error::Step`] if the program cannot be built;
+/// [`Error::Found`] for an input that a target treats wrongly, whose file is named; [`Error::Io`] for files.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let program = Fuzzer::build(&options.sanitizer)?;
+    let known = program.targets()?;
+    let asked = if options.targets.is_empty() { &known } else { &options.targets };
+    if let Some(unknown) = asked.iter().find(|name| !known.contains(name)) {
+        let known = known.join(", ");
+        return Err(Error::Lacking {
+            what: format!("no target is called {unknown}"),
+            mend: format!("one of {known}"),
+        });
+    }
+    let share = Duration::from_secs_f64(options.minutes * 60.0 / asked.len() as f64);
+    let mut found = Vec::new();
+    for name in asked {
+        let (turn, inputs) = program.turn(name, share, Duration::from_secs_f64(options.quiet * 60.0))?;
+        println!("{name}: {turn}");
+        found.extend(inputs);
+        if options.record {
+            record::add(name, &turn)?;
+        }
+        if options.keep {
+            program.keep(name)?;
+        }
+    }
+    if found.is_empty() { Ok(()) } else { Err(Error::Found { files: found }) }
+}
+
+/// The program of all targets, built for libFuzzer.
+struct Fuzzer {
+    program: PathBuf,
+    folder: PathBuf,
+}
+
+fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Error + '_ {
+    |source| Error::Io { path: path.to_owned(), source }
+}
+
+impl Fuzzer {
+    /// Builds it by `cargo fuzz`, which knows the flags of libFuzzer. The program is linked once.
+    fn build(sanitizer: &str) -> Result<Self, Error> {
+        let has = |arguments: &[&str]| {
+            let command =
+                Command::new("cargo").args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
+            command.is_ok_and(|status| status.success())
+        };
+        let lacking =
+            |what: &str, mend: &str| Error::Lacking { what: what.to_owned(), mend: mend.to_owned() };
+        if !has(&["+nightly", "--version"]) {
+            return Err(lacking("no nightly Rust", "rustup toolchain install nightly"));
+        }
+        if !has(&["fuzz", "--version"]) {
+            return Err(lacking("no cargo-fuzz", "cargo install cargo-fuzz --locked"));
+        }
+        let folder = root().join("target/fuzz");
+        let mut command = Command::new("cargo");
+        command.current_dir(root().join("crates/fuzz")).env("CARGO_TARGET_DIR", &folder);
+        // Cargo has said to its own children which Rust it is.
+        for name in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS"] {
+            command.env_remove(name);
+        }
+        command.args(["+nightly", "fuzz", "build", "--fuzz-dir", ".", "--features", "fuzzer"]);
+        command.args(["--sanitizer", sanitizer, "--target-dir"]).arg(&folder).arg("targets");
+        if !command.status().is_ok_and(|status| status.success()) {
+            return Err(Error::Step { command: "cargo +nightly fuzz build".to_owned() });
+        }
+        let host = env::consts::ARCH;
+        let program = folder.join(format!("{host}-unknown-linux-gnu/release/targets"));
+        Ok(Self { program, folder })
+    }
+
+    /// The names of all targets, as the program tells them.
+    fn targets(&self) -> Result<Vec<String>, Error> {
+        let output = Command::new(&self.program).env("MEDIANT_FUZZ", "?").arg("-runs=0").output();
+        let text = output.map_err(io(&self.program))?.stderr;
+        let text = String::from_utf8_lossy(&text);
+        let names = text.lines().find_map(|line| line.split_once("MEDIANT_FUZZ is `?`: "));
+        let names = names.map(|(_, names)| names.split(", ").map(str::to_owned).collect());
+        names.ok_or_else(|| Error::Step { command: self.program.display().to_string() })
+    }
+
+    /// The inputs that earlier turns found.
+    fn corpus(&self, name: &str) -> PathBuf {
+        self.folder.join("corpus").join(name)
+    }
+
+    fn command(&self, name: &str) -> Command {
+        let mut command = Command::new(&self.program);
+        command.env("MEDIANT_FUZZ", name);
+        // A message with a backtrace takes longer than the run of an input.
+        command.env("RUST_BACKTRACE", "0");
+        command
+    }
+
+    /// Fuzzes a target until its share of the time is over, or it was quiet for so long; and the files of inputs that
+    /// it treats wrongly.
+    fn turn(&self, name: &str, share: Duration, quiet: Duration) -> Result<(Turn, Vec<PathBuf>), Error> {
+        let corpus = self.corpus(name);
+        let findings = self.folder.join("found").join(name);
+        for folder in [&corpus, &findings] {
+            fs::create_dir_all(folder).map_err(io(folder))?;
+        }
+        let before = files(&findings)?;
+        let begin = Instant::now();
+        let mut child = self
+            .command(name)
+            .env("MEDIANT_FUZZ_SEEDS", &corpus)
+            .arg(format!("-max_total_time={}", share.as_secs().max(1)))
+            .arg(format!("-artifact_prefix={}/", findings.display()))
+            .args(["-timeout=20", "-rss_limit_mb=2048", "-max_len=4096", "-print_final_stats=1", "-reload=0"])
+            .arg(&corpus)
+            .args(Some(root().join("crates/fuzz/corpus").join(name)).filter(|kept| kept.is_dir()))
+            .stderr(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .map_err(io(&self.program))?;
+        let mut log = Log::default();
+        if let Some(lines) = child.stderr.take() {
+            for line in BufReader::new(lines).lines().map_while(Result::ok) {
+                log.line(&line, begin.elapsed());
+                // libFuzzer says how it is at each power of two of executions, and at each new edge.
+                if log.is_quiet_for(quiet, begin.elapsed()) {
+                    let _ = child.kill();
+                    break;
+                }
+            }
+        }
+        let _ = child.wait();
+        let found: Vec<PathBuf> =
+            files(&findings)?.into_iter().filter(|file| !before.contains(file)).collect();
+        for file in &found {
+            println!("{name}: wrong on {}\n{}", file.display(), log.tail());
+        }
+        Ok((log.turn(begin.elapsed(), found.len()), found))
+    }
+
+    /// Puts the smallest inputs that reach as many edges into the corpus that is kept.
+    fn keep(&self, name: &str) -> Result<(), Error> {
+        let (kept, merged) =
+            (root().join("crates/fuzz/corpus").join(name), self.folder.join("merged").join(name));
+        let _ = fs::remove_dir_all(&merged);
+        fs::create_dir_all(&merged).map_err(io(&merged))?;
+        let merge = self
+            .command(name)
+            .args(["-merge=1", "-max_len=600"])
+            .arg(&merged)
+            .arg(self.corpus(name))
+            .output();
+        merge.map_err(io(&self.program))?;
+        // libFuzzer takes the smallest first; the larger ones reach what these do not.
+        let mut inputs = files(&merged)?;
+        inputs.retain(|file| fs::metadata(file).is_ok_and(|about| about.len() <= KEPT.1));
+        inputs.sort_by_key(|file| (fs::metadata(file).map_or(0, |about| about.len()), file.clone()));
+        let every = inputs.len().div_ceil(KEPT.0).max(1);
+        let _ = fs::remove_dir_all(&kept);
+        fs::create_dir_all(&kept).map_err(io(&kept))?;
+        for file in inputs.iter().rev().step_by(every) {
+            let to = kept.join(file.file_name().unwrap_or_default());
+            fs::copy(file, &to).map_err(io(&to))?;
+        }
+        Ok(())
+    }
+}
+
+/// The files of a folder, sorted.
+fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let entries = fs::read_dir(folder).map_err(io(folder))?;
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.sort();
+    Ok(files)
+}
