@@ -10,6 +10,10 @@ impl<'d> Bytes<'d> {
         Self { rest }
     }
 
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.rest.is_empty()
+    }
+
     pub(crate) fn byte(&mut self) -> u8 {
         let Some((&byte, rest)) = self.rest.split_first() else { return 0 };
         self.rest = rest;

@@ -20,6 +20,7 @@ mod pictures;
 mod rasters;
 mod scenarios;
 mod seeds;
+mod sequence;
 mod serialized;
 mod words;
 
@@ -38,6 +39,11 @@ pub struct Target {
 
 /// All targets.
 pub const TARGETS: &[Target] = &[
+    Target {
+        name: "sequence",
+        about: "edits, repairs, saved indexes, queries with wishes",
+        run: sequence::run,
+    },
     Target { name: "map", about: "MovingAI maps, maps drawn as text, tiles", run: maps::run },
     Target { name: "picture", about: "pictures of maps: PNG, PGM, PBM", run: pictures::run_picture },
     Target { name: "ros", about: "maps of ROS: YAML and picture", run: pictures::run_ros },

@@ -4,6 +4,7 @@ use std::{fs, io::Cursor, path::PathBuf};
 
 use mediant_formats::{GeoTiffOptions, Raster, RasterFormat, RosSettings, Samples, Surface, TiffCompression};
 use mediant_grid::AsciiMap;
+use mediant_oracle::Rng;
 
 use crate::{Target, indexes::SAVED};
 
@@ -35,10 +36,14 @@ pub fn seeds(target: &Target) -> Vec<Vec<u8>> {
             (0..).zip(SAVED.iter()).map(|(at, saved)| [&[at][..], &saved.whole()].concat()).collect()
         }
         // Any bytes are numbers, or a program.
-        _ => (0..8_u8)
-            .map(|first| (0..96_u8).map(|at| first.wrapping_add(at.wrapping_mul(7))).collect())
-            .collect(),
+        _ => (0..24).map(drawn).collect(),
     }
+}
+
+/// Bytes of a seed.
+fn drawn(seed: u64) -> Vec<u8> {
+    let mut rng = Rng::new(seed);
+    (0..40 + 4 * seed).map(|_| rng.bits() as u8).collect()
 }
 
 fn text(parts: &[&str]) -> Vec<u8> {
