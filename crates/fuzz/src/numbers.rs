@@ -23,7 +23,7 @@ pub(crate) fn run(data: &[u8]) {
 
 /// A small map, its rules for moves over N(k), and a k.
 fn motion(bytes: &mut Bytes<'_>) -> (Map, Motion) {
-    let (width, height) = (1 + bytes.below(5) as u32, 1 + bytes.below(4) as u32);
+    let (width, height) = (1 + bytes.below(4) as u32, 1 + bytes.below(3) as u32);
     let cells = bytes.word();
     let map = Map::from_fn(width, height, |x, y| cells >> (4 * y + x) & 1 == 1).expect("a small map");
     let rules = Rules::ALL[bytes.below(Rules::ALL.len())];
