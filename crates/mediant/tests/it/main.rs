@@ -22,6 +22,7 @@ mod mistakes;
 mod no_threads;
 mod odd_input;
 mod options;
+mod panics;
 mod planners;
 mod points;
 mod queries;
