@@ -49,7 +49,7 @@ pub struct Options {
     #[arg(long, value_name = "N", default_value = "3")]
     threads: std::num::NonZeroUsize,
     /// The greatest side of a map, in cells
-    #[arg(long, value_name = "N", default_value = "128", value_parser = clap::value_parser!(u32).range(4..=2000))]
+    #[arg(long, value_name = "N", default_value = "128", value_parser = sides())]
     side: u32,
     /// The operations of each thread between two edits
     #[arg(long, value_name = "N", default_value = "60")]
@@ -63,6 +63,11 @@ pub struct Options {
     /// Write docs/proof/soak.json
     #[arg(long)]
     record: bool,
+}
+
+/// The sides that a map may have at most.
+fn sides() -> impl clap::builder::TypedValueParser<Value = u32> {
+    clap::value_parser!(u32).range(4..=2000)
 }
 
 /// A failure of `soak`.

@@ -347,3 +347,28 @@ impl Asker<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_are_found() {
+        let folder = std::env::temp_dir();
+        let mut timer = Timer::new(Duration::MAX, &folder);
+        let world = World::draw(0, &mut Rng::new(0), (8, &[]), &mut timer).expect("a world");
+        let check = |runner: &Runner, pair| compare(&world, runner, || "this path".to_owned(), pair).is_ok();
+        let (mut exact, mut longer) = (0, 0);
+        for runner in &world.runners {
+            assert!(check(runner, [Some(3.0), Some(3.0)]) && check(runner, [None, None]));
+            assert!(!check(runner, [None, Some(3.0)]));
+            let is_alike = runner.relation == Relation::Alike;
+            assert_eq!(check(runner, [Some(2.9), Some(3.0)]), is_alike, "{runner:?}");
+            assert_eq!(check(runner, [Some(3.0), None]), is_alike, "{runner:?}");
+            let is_equal = runner.relation == Relation::Equal;
+            assert_eq!(check(runner, [Some(3.1), Some(3.0)]), !is_equal, "{runner:?}");
+            *(if is_equal { &mut exact } else { &mut longer }) += 1;
+        }
+        assert!(exact >= 5 && longer >= 3, "{exact} exact engines, {longer} others");
+    }
+}
