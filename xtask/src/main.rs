@@ -7,6 +7,8 @@ use clap::{Args, Parser, Subcommand};
 use xtask::{
     c, ci, describe, download, fuzz, gppc, package,
     program::{COMPARE, REPRODUCE, VERIFY},
+    c, ci, describe, download, gppc, package,
+    program::{COMPARE, REPRODUCE, SOAK, VERIFY},
     tidy, web,
 };
 
@@ -26,6 +28,8 @@ enum Task {
     Verify(HandedOn),
     /// Time our engines beside other programs, on the same instances
     Compare(HandedOn),
+    /// Run all engines in one process for a long time, on maps that change, and compare them
+    Soak(HandedOn),
     /// Measure the papers' tables and figures, and write them beside the published values to docs/results
     ReproduceTables(HandedOn),
     /// Write what every language says of calls and engines, from the library's description of itself
@@ -60,6 +64,7 @@ fn main() -> ExitCode {
         Task::Download(options) => download::run(&options).map(done),
         Task::Verify(options) => VERIFY.run(&options.arguments),
         Task::Compare(options) => COMPARE.run(&options.arguments),
+        Task::Soak(options) => SOAK.run(&options.arguments),
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
         Task::Describe => describe::run().map(done),
         Task::Tidy => tidy::run().map(done),

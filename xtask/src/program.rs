@@ -23,6 +23,8 @@ pub struct Program {
 pub const VERIFY: Program = Program { package: "mediant-bench", name: "verify" };
 /// Times engines beside other programs.
 pub const COMPARE: Program = Program { package: "mediant-bench", name: "compare" };
+/// Runs all engines for a long time.
+pub const SOAK: Program = Program { package: "mediant-bench", name: "soak" };
 /// Reproduces the papers' tables and figures.
 pub const REPRODUCE: Program = Program { package: "mediant-papers", name: "reproduce-tables" };
 

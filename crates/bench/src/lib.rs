@@ -17,6 +17,7 @@
 //! * [`ReferenceTimings`]: the times of other programs; [`Comparison`]: our ratio to each.
 //! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify`
 //!   measures no time, but needs the same: all engines, and the benchmark sets.
+//! * [`soak`]: the program behind `cargo xtask soak`, which runs all engines for a long time and compares them.
 //!
 //! Not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
 //! `mediant-papers`). The criterion benches are in `benches/`.
@@ -31,6 +32,7 @@ mod problem;
 #[cfg(doctest)]
 mod readme;
 mod reference_timings;
+pub mod soak;
 mod study;
 mod typed;
 pub mod verify;

@@ -71,6 +71,9 @@ mod rules;
 mod serialized;
 pub mod sight;
 mod tables;
+#[cfg(feature = "parallel")]
+#[doc(hidden)]
+pub mod threads;
 mod transpose;
 mod tree;
 mod versions;

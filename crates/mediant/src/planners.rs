@@ -223,19 +223,13 @@ impl Planners {
 }
 
 /// Maps each number below `count` by `work`, in order; with the feature `parallel` on all cores.
-#[cfg(feature = "parallel")]
 pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
     // A single piece of work needs no pool, and makes none.
-    if count <= 1 {
-        return (0..count).map(work).collect();
+    #[cfg(feature = "parallel")]
+    if count > 1 && mediant_grid::threads::are_there() {
+        use rayon::iter::{IntoParallelIterator, ParallelIterator};
+        return (0..count).into_par_iter().map(&work).collect();
     }
-    (0..count).into_par_iter().map(&work).collect()
-}
-
-/// Maps each number below `count` by `work`.
-#[cfg(not(feature = "parallel"))]
-pub(crate) fn in_order<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     (0..count).map(work).collect()
 }
 

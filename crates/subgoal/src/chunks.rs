@@ -29,15 +29,12 @@ pub(crate) fn in_chunks<S, T: Send>(
     };
     let chunks = 0..count.div_ceil(CHUNK);
     #[cfg(feature = "parallel")]
-    {
+    if mediant_grid::threads::are_there() {
         use rayon::prelude::*;
-        chunks.into_par_iter().map_init(scratch, chunk).collect()
+        return chunks.into_par_iter().map_init(scratch, chunk).collect();
     }
-    #[cfg(not(feature = "parallel"))]
-    {
-        let mut scratch = scratch();
-        chunks.map(|number| chunk(&mut scratch, number)).collect()
-    }
+    let mut scratch = scratch();
+    chunks.map(|number| chunk(&mut scratch, number)).collect()
 }
 
 /// Scratch memory that threads borrow, one each.

@@ -1,8 +1,9 @@
-//! Problems from the files of benchmark sets, the side by side on generated maps, and `verify`.
+//! Problems from the files of benchmark sets, the side by side on generated maps, `verify`, and `soak`.
 
 mod changes;
 mod costs;
 mod measure;
 mod pages;
 mod problem;
+mod soak;
 mod verify;

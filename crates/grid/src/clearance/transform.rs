@@ -36,20 +36,18 @@ pub(super) fn squared_distances(sites: Sites<'_>, interrupt: &Interrupt) -> Resu
     let ends = |band| check().map(|()| columns::ends(sites, band));
     let bands = 0..height.div_ceil(BAND);
     #[cfg(feature = "parallel")]
-    {
+    if crate::threads::are_there() {
         use rayon::prelude::*;
         let ends = bands.into_par_iter().map(ends).collect::<Result<_, _>>()?;
         let beyond = columns::beyond(sites, ends, outside, check)?;
         let parts = squared.par_chunks_mut(BAND * width).zip(&beyond).enumerate();
         parts.try_for_each_init(Scratch::default, band)?;
+        return Ok(squared);
     }
-    #[cfg(not(feature = "parallel"))]
-    {
-        let ends = bands.map(ends).collect::<Result<_, _>>()?;
-        let beyond = columns::beyond(sites, ends, outside, check)?;
-        let mut scratch = Scratch::default();
-        let mut parts = squared.chunks_mut(BAND * width).zip(&beyond).enumerate();
-        parts.try_for_each(|part| band(&mut scratch, part))?;
-    }
+    let ends = bands.map(ends).collect::<Result<_, _>>()?;
+    let beyond = columns::beyond(sites, ends, outside, check)?;
+    let mut scratch = Scratch::default();
+    let mut parts = squared.chunks_mut(BAND * width).zip(&beyond).enumerate();
+    parts.try_for_each(|part| band(&mut scratch, part))?;
     Ok(squared)
 }

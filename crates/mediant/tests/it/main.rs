@@ -18,8 +18,11 @@ mod identity;
 mod interrupts;
 mod labels;
 mod mistakes;
+#[cfg(all(target_os = "linux", feature = "parallel"))]
+mod no_threads;
 mod odd_input;
 mod options;
+mod panics;
 mod planners;
 mod points;
 mod queries;

@@ -40,7 +40,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
             })
         };
         #[cfg(feature = "parallel")]
-        if ids.len() > 1 {
+        if ids.len() > 1 && mediant_grid::threads::are_there() {
             use rayon::prelude::*;
             let at_once = (ids.len() / 64).clamp(1, 16);
             let all = ids.par_chunks(at_once).map(evaluate).collect::<Result<Vec<_>, _>>()?;

@@ -211,11 +211,10 @@ impl LabelLists {
             })
         };
         #[cfg(feature = "parallel")]
-        {
+        if mediant_grid::threads::are_there() {
             use rayon::prelude::*;
-            pieces.par_iter_mut().try_for_each(work)
+            return pieces.par_iter_mut().try_for_each(work);
         }
-        #[cfg(not(feature = "parallel"))]
         pieces.iter_mut().try_for_each(work)
     }
 

@@ -165,7 +165,8 @@ impl Pool {
 fn threads(subgoals: usize) -> usize {
     /// Subgoals for which waking another thread pays.
     const LEAST: usize = 64;
-    rayon::current_num_threads().min(subgoals.div_ceil(LEAST)).max(1)
+    let there = if mediant_grid::threads::are_there() { rayon::current_num_threads() } else { 1 };
+    there.min(subgoals.div_ceil(LEAST)).max(1)
 }
 
 #[cfg(not(feature = "parallel"))]
