@@ -10,6 +10,7 @@ use crate::{
 pub(crate) const EXPERIMENTS: &[Experiment] = &[
     rivera::TABLES,
     rivera::THETA,
+    rivera::ALTERNATIVES,
     hormazabal::PLANNERS,
     hormazabal::branching::BRANCHING,
     hormazabal::distance::DISTANCE,
@@ -18,6 +19,7 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
     hammoud::TABLES,
     hammoud::FIGURES,
     teleisa::RUNS,
+    teleisa::TIES,
     engines::ENGINES,
     growth::GROWTH,
     families::FAMILIES,

@@ -12,6 +12,7 @@ use crate::{
     Error,
     catalog::EXPERIMENTS,
     experiment::{Experiment, FIGURES, Page, Section},
+    explained::explained,
     records::{DATA, records, write},
     wrap::wrapped,
 };
@@ -62,6 +63,10 @@ pub(super) fn draw(records: &[(&'static Experiment, Record)]) -> Result<BTreeMap
             for verdict in [Verdict::Matched, Verdict::WithinSampling, Verdict::Deviates] {
                 section.markdown = section.markdown.replace(verdict.mark(), "");
             }
+        }
+        let known = |id: &str| records.iter().map(|(_, record)| record).find(|record| record.id == id);
+        for claim in &mut section.claims {
+            claim.cause = explained(&claim.cause, known);
         }
         let unexplained = |claim: &&Claim| claim.verdict() == Verdict::Deviates && claim.cause.is_empty();
         // A sample or other maps may deviate for no reason that could be given.
@@ -214,19 +219,34 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     if shown.iter().any(|(_, record, _)| record.provenance.quick) {
         text += "> A quick run, on an even sample.\n\n";
     }
-    let mut table =
-        Table::new(["page", "what", "instances", "✓", "≈", "✗", "–", "revision", "`--only`"]).names(2);
-    let mut total = [0; 4];
+    let mut table = Table::new([
+        "page",
+        "what",
+        "instances",
+        "✓",
+        "≈",
+        "✗",
+        "–",
+        "times: ✓",
+        "≈",
+        "✗",
+        "–",
+        "revision",
+        "`--only`",
+    ])
+    .names(2);
+    let mut total = [0; 8];
     for (experiment, record, section) in shown {
         let page = experiment.page;
-        let counts = verdicts(&section.claims);
-        total.iter_mut().zip(counts).for_each(|(total, count)| *total += count);
+        let of = |is_time| verdicts(section.claims.iter().filter(move |claim| claim.is_time == is_time));
+        let counts: Vec<usize> = [of(false), of(true)].concat();
+        total.iter_mut().zip(&counts).for_each(|(total, count)| *total += count);
         let mut cells = vec![
             format!("[{0}]({0}.md)", page.file()),
             experiment.title.to_owned(),
             thousands(record.provenance.instances as f64),
         ];
-        cells.extend(counts.map(|count| if count == 0 { String::new() } else { count.to_string() }));
+        cells.extend(counts.iter().map(|count| if *count == 0 { String::new() } else { count.to_string() }));
         cells.push(record.provenance.revision.get(..8).unwrap_or("unknown").to_owned());
         cells.push(format!("`{}`", experiment.id));
         table.row(cells);
@@ -237,6 +257,8 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     text += &table.markdown();
     text += &format!(
         "\n{MARKS}\n\n\
+         The first four columns count costs, lengths and numbers of nodes; the others times, which another \
+         program on another machine cannot have alike.\n\n\
          The pages are drawn from the records in [`{DATA}/`]({DATA}): JSON, one row on a line, each column \
          with its unit, with revision, machine, number of instances and seed. Lengths and numbers of nodes \
          are the same on every machine; times are not, so only their ratios can be compared.\n\n\

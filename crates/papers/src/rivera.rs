@@ -1,11 +1,15 @@
-//! Rivera, Hernández & Baier 2017: Tables 1 and 2, Figure 3, and the comparison with Theta*.
+//! Rivera, Hernández & Baier 2017: Tables 1 and 2, Figure 3, the comparison with Theta*, and causes of
+//! differences.
 
+mod alternatives;
 mod causes;
 mod charts;
 mod published;
 mod searches;
 mod tables;
 mod theta;
+
+pub(crate) use alternatives::CAUSES;
 
 use crate::experiment::{Experiment, Page};
 
@@ -27,4 +31,14 @@ pub(super) const THETA: Experiment = Experiment {
     sets: &["dao"],
     measure: theta::measure,
     show: theta::show,
+};
+
+/// Choices that the paper leaves open.
+pub(super) const ALTERNATIVES: Experiment = Experiment {
+    id: "rivera2017-causes",
+    page: Page::Rivera2017,
+    title: "Choices that the paper leaves open",
+    sets: &["sc1", "bg512", "wc3maps512"],
+    measure: alternatives::measure,
+    show: alternatives::show,
 };

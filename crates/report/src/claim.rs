@@ -29,6 +29,8 @@ pub struct Claim {
     pub digits: usize,
     /// The unit that follows the numbers, with its space: ` %`, ` ×`.
     pub unit: String,
+    /// Whether it is a time, or a comparison of times: another machine and program have others.
+    pub is_time: bool,
 }
 
 /// The verdict on our number beside a published one.
@@ -64,6 +66,7 @@ impl Claim {
             cause: String::new(),
             digits: 2,
             unit: String::new(),
+            is_time: false,
         }
     }
 
@@ -96,6 +99,13 @@ impl Claim {
     #[must_use]
     pub fn written(mut self, digits: usize, unit: &str) -> Self {
         (self.digits, self.unit) = (digits, unit.to_owned());
+        self
+    }
+
+    /// The same claim as one of times, if `is_time`.
+    #[must_use]
+    pub const fn of_times(mut self, is_time: bool) -> Self {
+        self.is_time = is_time;
         self
     }
 
@@ -147,8 +157,8 @@ impl Verdict {
 
 /// The number of claims of each [`Verdict`]: matched, within sampling, deviating, missing.
 #[must_use]
-pub fn verdicts(claims: &[Claim]) -> [usize; 4] {
-    let count = |verdict| claims.iter().filter(|claim| claim.verdict() == verdict).count();
+pub fn verdicts<'c>(claims: impl IntoIterator<Item = &'c Claim> + Clone) -> [usize; 4] {
+    let count = |verdict| claims.clone().into_iter().filter(|claim| claim.verdict() == verdict).count();
     [Verdict::Matched, Verdict::WithinSampling, Verdict::Deviates, Verdict::Missing].map(count)
 }
 

@@ -1,7 +1,8 @@
 //! Why numbers differ from the published ones.
 //!
-//! Numbers that a run measures come from its record. A cause that was measured once, by code that is not in
-//! the repository, is called a guess.
+//! Their figures come from records: those of the tables' own, or, where a name stands for a cause, those of an
+//! experiment of its own (`alternatives`). What no experiment measures is called a guess that nobody can
+//! check.
 
 use mediant_report::Record;
 
@@ -10,55 +11,22 @@ use super::{
     searches::{Algorithm, Heuristic, KS, Measure, SearchKey},
 };
 
-/// Of other problems.
-const DRAW: &str = "The problems are others, and ratios change with their length. On WC3, our guess is that \
-                    swamp, `S`, plays a part: here its 776,789 cells are free, as the format's description \
-                    says, and the mean path over 8 neighbors is 242.0 (published 206.8). Measured once, by \
-                    code that is not kept here, 1,800 problems with swamp blocked have a mean path of 196.8; \
-                    A* expands 6,111 nodes with h_k (published 6,696) and 8,665 with the Euclidean heuristic \
-                    (published 9,102).";
-
+/// Of other problems, and of swamp.
+pub(super) const DRAW: &str = "rivera2017-causes: draw";
 /// Of longer moves.
-const BOXES: &str = "Our guess: the published program allows fewer of the long moves than the text, which \
-                     asks only for the cells that the segment touches to be free. Measured once, by code \
-                     that is not kept here, on 50 problems of BG: if all cells of the rectangle around a \
-                     move have to be free, paths over 32 and 128 neighbors have 0.620 and 0.415 of the moves \
-                     of those over 8 (published 0.618 and 0.425, by the text 0.598 and 0.376), and 0.959 and \
-                     0.956 of the cost (published 0.958 and 0.955, by the text 0.957 and 0.953).";
-
+pub(super) const LONG_MOVES: &str = "rivera2017-causes: long moves";
 /// Of ties.
-const TIES: &str = "Our guess: ties. Here, of equal f, the vertex nearer to the goal comes first, then the \
-                    lower number. Measured once, by code that is not kept here, on 120 problems of BG: a \
-                    heap that compares exact costs by f alone makes, at 4 neighbors, 4.8 swaps an expansion \
-                    instead of 9.5 (published 4.6) and expands 8,318 nodes instead of 6,915, which is 0.50 \
-                    of those with the Euclidean heuristic instead of 0.41 (published 0.50). At 128 neighbors \
-                    it expands 0.91 of the nodes at 8 neighbors instead of 1.03 (published 0.97). With the \
-                    Euclidean heuristic, where f hardly ever ties, both heaps expand the same.";
-
+pub(super) const TIES: &str = "rivera2017-causes: ties";
 /// Of jump points.
-const JUMP_POINTS: &str = "The paper leaves open which vertices beside an obstacle are jump points for \
-                           longer moves, and which moves these pass on. Here they are the vertices at the \
-                           obstacle's corners, and they pass on all moves. With the Euclidean heuristic the \
-                           published program expands no more than A* (1.0001 times as many at 128 neighbors \
-                           on StarCraft), so its paths must be all but shortest. Our guess is that its jump \
-                           points are more: measured once, by code that is not kept here, on 42 problems of \
-                           BG, those at the corners alone expand 1.028 times as many nodes as A*, with the \
-                           vertices around them 1.0002 times. Jump points that pass on all moves fill the \
-                           heap as k grows: the exact rule, which passes on fewer up to 64 neighbors, makes \
-                           fewer swaps.";
-
+pub(super) const JUMP_POINTS: &str = "rivera2017-causes: jump points";
 /// Of ties in canonical A*.
-const CANONICAL_TIES: &str = "Our guess: ties, as in Table 1. Measured once, by code that is not kept here, \
-                              on 120 problems of BG: a heap that compares f alone expands at 4 neighbors \
-                              10,205 nodes with 3.1 swaps each, instead of 7,994 with 9.4 (published 10,859 \
-                              with 2.6); at 16 and 128 neighbors, 0.90 and 0.88 of the nodes at 8 neighbors, \
-                              instead of 1.03 and 1.11 (published 0.91 and 0.85).";
+pub(super) const CANONICAL_TIES: &str = "rivera2017-causes: ties of canonical A*";
 
 /// Why a number of the tables differs, where it does.
 pub(super) fn of(record: &Record, search: SearchKey, measure: Measure) -> String {
     match (search.algorithm, search.heuristic, measure) {
         (_, _, Measure::Time) => time(record, search),
-        (_, _, Measure::Cost | Measure::Moves) => [BOXES, DRAW].join("\n"),
+        (_, _, Measure::Cost | Measure::Moves) => [LONG_MOVES, DRAW].join("\n"),
         (Algorithm::AStar, Heuristic::Euclidean, _) => DRAW.to_owned(),
         (Algorithm::AStar, Heuristic::Hk, _) => [TIES, DRAW].join("\n"),
         (_, Heuristic::Euclidean, _) => [JUMP_POINTS, DRAW].join("\n"),
@@ -182,15 +150,9 @@ pub(super) const SLOWER: &str =
     "At 4 and 8 neighbors the times of an expansion differ little here, and the expansions decide.";
 
 /// Why A* is not as fast beside Theta*.
-pub(super) const THETA_TIME: &str = "Our guess: Theta* asks for fewer lines of sight here. Measured once, by \
-                                     code that is not kept here, on 183 instances of 12 maps: ours asks for \
-                                     1.43 lines of sight an expansion, none for a neighbor that is as cheap \
-                                     already, nor for one that was found hidden. As published, with one for \
-                                     each neighbor that is not closed, it asks for 3.81, and walks each cell \
-                                     by cell. Then the same 6,497 expansions and the same paths take 1.8 \
-                                     times as long as ours, and A* over 32 neighbors is 1.6 times as fast as \
-                                     that Theta* (published 1.37) instead of 0.9, by processor time in the \
-                                     same run.";
+pub(super) const THETA_TIME: &str = "A guess that nobody can check: Theta* asks for fewer lines of sight here, none for a neighbor that is as \
+     cheap already, nor for one that was found hidden. A program that asks for one for each neighbor that is \
+     not closed takes longer for the same paths.";
 
 #[cfg(test)]
 mod tests {

@@ -5,7 +5,7 @@ pub(super) mod pages;
 use std::sync::Arc;
 
 use mediant_bench::Study;
-use mediant_grid::Rules;
+use mediant_grid::{Grid, Rules};
 use mediant_report::{Column, Row};
 use mediant_search::Ends;
 
@@ -34,11 +34,7 @@ type Timed = Vec<Option<f64>>;
 pub(super) fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     let mut maps = Vec::new();
     for set in context.sets() {
-        maps.extend(match set {
-            "sc1" => context.named(set, &STARCRAFT[..context.quick_or(1, STARCRAFT.len())])?,
-            "bundled" => context.maps(set, 2)?,
-            _ => context.maps(set, 3)?,
-        });
+        maps.extend(self::maps(context, set)?);
     }
     let counted = context.each("counts", How::Counted, &maps, |map| counts(context, map))?;
     let timed = if context.passes() == 0 {
@@ -68,6 +64,15 @@ pub(super) fn measure(context: &Context<'_>) -> Result<Findings, Error> {
         ),
         seeded: true,
     })
+}
+
+/// The maps of a set.
+pub(super) fn maps(context: &Context<'_>, set: &str) -> Result<Vec<Map>, Error> {
+    match set {
+        "sc1" => context.named(set, &STARCRAFT[..context.quick_or(1, STARCRAFT.len())]),
+        "bundled" => context.maps(set, 2),
+        _ => context.maps(set, 3),
+    }
 }
 
 fn columns() -> Vec<Column> {
@@ -119,20 +124,25 @@ const fn timed_of(problems: usize) -> usize {
     problems.div_ceil(TIMED)
 }
 
-/// Random problems.
-fn queries(context: &Context<'_>, map: &Map) -> Result<Vec<Ends>, Error> {
-    let grid = map.grid()?;
+/// The first `count` of a map's random problems, on its grid or one like it.
+pub(super) fn queries(
+    context: &Context<'_>,
+    map: &Map,
+    grid: &Arc<Grid>,
+    count: usize,
+) -> Result<Vec<Ends>, Error> {
     let setup = setup("astar:3:never")?;
     let space = setup
-        .space(&mediant::Map::from(Arc::clone(&grid)))
+        .space(&mediant::Map::from(Arc::clone(grid)))
         .map_err(|wrong| Error::Reproduce(wrong.to_string()))?;
     let rules: Rules = setup.rules();
     let solvable = |query: Ends| space.connected(query.start, query.goal);
-    Ok(random_queries(&mut context.rng(map), &grid, rules, problems(context, &map.set), solvable))
+    Ok(random_queries(&mut context.rng(map), grid, rules, count, solvable))
 }
 
 fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
-    let (grid, queries) = (map.grid()?, queries(context, map)?);
+    let grid = map.grid()?;
+    let queries = queries(context, map, &grid, problems(context, &map.set))?;
     let mut study = Study::new(&grid, &queries, 0);
     let one = |search: SearchKey| {
         let found = run(&mut study, &search.setup())?.answers.into_iter().map(|answer| {
@@ -152,7 +162,8 @@ fn counts(context: &Context<'_>, map: &Map) -> Result<Counted, Error> {
 }
 
 fn times(context: &Context<'_>, map: &Map) -> Result<Timed, Error> {
-    let (grid, mut queries) = (map.grid()?, queries(context, map)?);
+    let grid = map.grid()?;
+    let mut queries = queries(context, map, &grid, problems(context, &map.set))?;
     queries.truncate(timed_of(queries.len()));
     let mut study = Study::new(&grid, &queries, context.passes());
     let one = |search: SearchKey| {

@@ -232,6 +232,7 @@ fn claims(record: &Record) -> Vec<Claim> {
         .within(0.0)
         .written(0, ""),
         Claim::new(source, "A* over 32 neighbors: times as fast as Theta*", FASTER_BY, faster(BETTER_FROM))
+            .of_times(true)
             .because(causes::THETA_TIME),
         Claim::new(
             source,
@@ -241,6 +242,7 @@ fn claims(record: &Record) -> Vec<Claim> {
         )
         .within(0.0)
         .written(0, " of 2")
+        .of_times(true)
         .because(causes::THETA_TIME),
     ]
 }

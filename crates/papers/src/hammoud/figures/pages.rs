@@ -303,7 +303,7 @@ fn claims(sizes: &[Size<'_>]) -> Vec<Claim> {
             faster.map(|(wins, losses)| 100.0 * wins.len() as f64 / (wins.len() + losses.len()) as f64);
         let what = format!("maps on which JPS is faster than A*, {side} × {side}");
         let claim = Claim::new("Section V, JPS finds a path faster", what, 100.0, share).written(0, " %");
-        claims.push(claim.because(size.and_then(slower).unwrap_or_default()));
+        claims.push(claim.of_times(true).because(size.and_then(slower).unwrap_or_default()));
     }
     claims
 }

@@ -236,7 +236,11 @@ fn claims(record: &Record) -> Vec<Claim> {
         claims.push(claim("JPS length", published.jps, jps).because(&repeated));
         let ratio =
             Claim::new(source("A* time over JPS time"), asked.name(), published.ratio(), asked.ratio());
-        claims.push(ratio.because(if published.is_misprinted() { &misprinted } else { &slower }));
+        claims.push(ratio.of_times(true).because(if published.is_misprinted() {
+            &misprinted
+        } else {
+            &slower
+        }));
     }
     claims
 }

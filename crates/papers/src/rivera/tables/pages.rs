@@ -169,7 +169,7 @@ fn claim(record: &Record, set: &str, search: SearchKey, measure: Measure) -> Opt
     };
     let error = search.number(record, set, &error_column(measure));
     let claim = Claim::new(source, what, published, here).standard_error(error).written(digits, "");
-    Some(claim.because(causes::of(record, search, measure)))
+    Some(claim.of_times(measure == Measure::Time).because(causes::of(record, search, measure)))
 }
 
 /// The claims of those searches of both tables that are asked for.
@@ -209,7 +209,8 @@ fn sentences(record: &Record) -> Vec<Claim> {
         (Algorithm::AStar, Algorithm::Paper, Heuristic::Hk, Heuristic::Euclidean);
     let cost = |set, k| ours(record, set, SearchKey { algorithm: a_star, heuristic: hk, k }, Measure::Cost);
     let said = |what: &str, published: f64, of: usize, ours, cause: &str| {
-        Claim::new(source, what, published, ours).within(0.0).written(0, &format!(" of {of}")).because(cause)
+        let claim = Claim::new(source, what, published, ours).within(0.0).written(0, &format!(" of {of}"));
+        claim.because(cause)
     };
     let mut claims = vec![
         said(
@@ -225,14 +226,16 @@ fn sentences(record: &Record) -> Vec<Claim> {
             15,
             count(steps().map(|(set, k)| less(time(set, a_star, hk, k - 1), time(set, a_star, hk, k)))),
             causes::SLOWER,
-        ),
+        )
+        .of_times(true),
         said(
             "sets and k at which A* is faster with h_k than with the Euclidean heuristic",
             18.0,
             18,
             count(all().map(|(set, k)| less(time(set, a_star, hk, k), time(set, a_star, euclidean, k)))),
             &causes::faster(record, Algorithm::AStar),
-        ),
+        )
+        .of_times(true),
         said(
             "sets, k and heuristics at which canonical A* is faster than A* (in the tables all but BG, 4 \
              neighbors, h_k)",
@@ -243,7 +246,8 @@ fn sentences(record: &Record) -> Vec<Claim> {
                     .map(|heuristic| less(time(set, paper, heuristic, k), time(set, a_star, heuristic, k)))
             })),
             &causes::canonical(record),
-        ),
+        )
+        .of_times(true),
     ];
     for (set, name) in SETS {
         let faster = |k: &u32| less(time(set, paper, hk, *k), time(set, paper, euclidean, *k));
@@ -258,6 +262,7 @@ fn sentences(record: &Record) -> Vec<Claim> {
             )
             .within(0.0)
             .written(0, "")
+            .of_times(true)
             .because(causes::faster(record, Algorithm::Paper)),
         );
     }
