@@ -38,6 +38,7 @@ use self::{
     laws::CASES,
     parts::{Done, Kept, Part, prove_all},
     records::State,
+    sources::Sources,
     suite::Suite,
     tally::{Tally, WRONG},
     terrain::Choice,
@@ -161,12 +162,12 @@ pub fn run_in(
 ) -> Result<(), ProveError> {
     let until = options.minutes.map(|minutes| Instant::now() + Duration::from_secs(60 * minutes));
     let pace = Pace { slow: if options.sample { 4 } else { options.slow.get() } };
-    let sources = sources::digest(&places.root, pace)?;
+    let sources = Sources::read(&places.root, pace)?;
     let is_whole = options.every.get() == 1 && options.every_map.get() == 1 && !options.sample;
     if options.record && !is_whole {
         return Err(ProveError::Wrong("a record is of all instances: without --every".to_owned()));
     }
-    let kept = Kept { folder: is_whole.then(|| places.kept.join(&sources)) };
+    let kept = Kept { folder: is_whole.then(|| places.kept.clone()), sources: sources.clone() };
     let mut recorded =
         if is_whole { records::recorded(&places.records, &sources)? } else { Default::default() };
     let mut shares: Vec<(Suite, String, Vec<Part>, State)> = Vec::new();
@@ -304,6 +305,9 @@ fn shares_of(places: &Places, options: &Options) -> Result<Vec<(Suite, String, V
         for (at, set) in sets.iter().enumerate() {
             let mut maps = files(&places.cache.join(set), ".map")?;
             let mut choice = Choice::Every(options.every.get() * suite.every());
+            if options.sample && !suite.is_quick_on(set) {
+                continue;
+            }
             if options.sample {
                 (maps, choice) = (sampled(maps, number), Choice::Few(SAMPLED));
             }

@@ -38,6 +38,17 @@ impl Family {
         all
     }
 
+    /// Whether a vertex has so many moves that tables of them take seconds to make.
+    pub(super) fn is_of_many_moves(self) -> bool {
+        self.k.finite().is_some_and(|k| k > FiniteK::N64)
+    }
+
+    /// Whether subgoals are prepared for it.
+    pub(super) fn has_subgoals(self) -> bool {
+        let solves = |&motion: &Motion| Setup::new(Engine::Subgoal, motion).check().is_ok();
+        self.motions().iter().any(solves)
+    }
+
     /// Its rules of motion.
     pub(super) fn motions(self) -> Vec<Motion> {
         let rules: Vec<Rules> = match (self.placement, self.k) {
@@ -120,7 +131,7 @@ impl Contestant {
             let setup = Setup::new(engine, motion);
             setup.check().ok()?;
             own.may_be_longer = setup.optimal_over() != Some(motion.k);
-            // Of the ways to fewest moves over large k nothing is known.
+            // It is held to the rule of the scenario files alone.
             if own.may_be_longer && !is_of_scenarios(motion) {
                 return None;
             }
@@ -144,7 +155,12 @@ impl Contestant {
                 if asker.planner.index().searched_by() != engine.kind() {
                     return Ok(None);
                 }
-                Ok(Some(asked.map(|(at, instance)| (at, asker.cost(instance.ends))).collect()))
+                let is_subgoal = engine.kind() == Engine::Subgoal;
+                let ask = |(at, instance): (usize, &Instance)| match is_subgoal {
+                    true => (at, asker.cost_twice(instance.ends)),
+                    false => (at, asker.cost(instance.ends)),
+                };
+                Ok(Some(asked.map(ask).collect()))
             }
         }
     }

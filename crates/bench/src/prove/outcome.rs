@@ -131,6 +131,22 @@ impl Asker {
         self.path(ends).0
     }
 
+    /// [`cost`](Self::cost), which must also be the distance that the planner tells without a path: labels
+    /// find it in another way.
+    pub(super) fn cost_twice(&mut self, ends: Ends) -> Outcome {
+        let outcome = self.cost(ends);
+        let k = self.space.motion().k;
+        let told = match self.planner.distance(ends) {
+            Ok(Some(cells)) => Outcome::of_cells(k, cells),
+            Ok(None) => Outcome::NoPath,
+            Err(_) => Outcome::Refused,
+        };
+        match outcome.agrees(&told) || matches!(outcome, Outcome::Broken(_)) {
+            true => outcome,
+            false => Outcome::Broken(format!("a path that costs {outcome}, and the distance {told}")),
+        }
+    }
+
     /// [`cost`](Self::cost), with the path.
     pub(super) fn path(&mut self, ends: Ends) -> (Outcome, Option<mediant::Path>) {
         let found = self.planner.path(ends.start, ends.goal);

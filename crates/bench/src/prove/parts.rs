@@ -14,7 +14,7 @@ use std::{
 use rayon::ThreadPoolBuilder;
 use serde::{Deserialize, Serialize};
 
-use super::{Pace, ProveError, suite::Suite, tally::Tally, terrain::Choice, terrain::read};
+use super::{Pace, ProveError, sources::Sources, suite::Suite, tally::Tally, terrain::Choice, terrain::read};
 
 /// A map under a family or a law.
 #[derive(Clone, Debug)]
@@ -56,11 +56,13 @@ impl Part {
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
     pub(super) folder: Option<PathBuf>,
+    pub(super) sources: Sources,
 }
 
 impl Kept {
     fn file(&self, part: &Part) -> Option<PathBuf> {
-        Some(self.folder.as_ref()?.join(part.suite.to_string()).join(part.name() + ".json"))
+        let folder = self.folder.as_ref()?.join(self.sources.of(part.suite.is_law()));
+        Some(folder.join(part.suite.to_string()).join(part.name() + ".json"))
     }
 
     /// The result of a part that was proven before. A file that is none is proven again.

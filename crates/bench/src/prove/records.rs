@@ -9,6 +9,7 @@ use super::{
     families::CONTESTANTS,
     laws::CASES,
     parts::{Done, Kept, Part},
+    sources::Sources,
     suite::Suite,
     tally::WRONG,
 };
@@ -108,13 +109,13 @@ impl Page {
 /// The states that the records in `folder` have of these sources, by suite and set.
 pub(super) fn recorded(
     folder: &Path,
-    sources: &str,
+    sources: &Sources,
 ) -> Result<BTreeMap<(String, String), State>, ProveError> {
     let mut states = BTreeMap::new();
     for is_of_laws in [false, true] {
         let record = Page::read(folder, is_of_laws)?.record;
         let key = Page::key(is_of_laws);
-        for row in record.rows.iter().filter(|row| row.text("sources") == sources) {
+        for row in record.rows.iter().filter(|row| row.text("sources") == sources.of(is_of_laws)) {
             let number = |column: &str| row.number(column).unwrap_or(0.0);
             let mut state = State { maps: number("maps") as usize, ..State::default() };
             state.done.seconds = number("seconds");
@@ -131,7 +132,7 @@ pub(super) fn recorded(
 /// Writes the states to the records in `folder`. Rows of other sources stay until these have proven a map.
 pub(super) fn write(
     (root, folder): (&Path, &Path),
-    sources: &str,
+    sources: &Sources,
     pace: Pace,
     states: &[(Suite, String, State)],
 ) -> Result<(), ProveError> {
@@ -143,7 +144,7 @@ pub(super) fn write(
         let new = states.iter().filter(|(suite, _, state)| suite.is_law() == is_of_laws && state.maps > 0);
         let (mut rows, mut problems) = (Vec::new(), 0);
         for (suite, set, state) in new {
-            let mut row = Row::new().key(key, suite).key("set", set).key("sources", sources);
+            let mut row = Row::new().key(key, suite).key("set", set).key("sources", sources.of(is_of_laws));
             row = row.with("maps", state.maps as f64).with("of", state.of as f64);
             row = row.with(WRONG, 0.0).with("seconds", state.done.seconds.round());
             for (name, count) in state.done.tally.counts() {

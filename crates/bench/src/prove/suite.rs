@@ -31,6 +31,18 @@ impl Suite {
         }
     }
 
+    /// Whether it takes seconds, not minutes, on one map of a set: it is in the sample then.
+    pub(super) fn is_quick_on(self, set: &str) -> bool {
+        let (is_small, is_noise) = (["dao", "street"].contains(&set), set == "random");
+        match self {
+            Self::Family(family) if family.is_of_many_moves() => is_small,
+            Self::Family(family) => !is_noise || !family.has_subgoals(),
+            Self::Law(Law::OrderAtCenters) => is_small,
+            Self::Law(Law::Repaired | Law::Threads) => !is_noise,
+            Self::Law(_) => true,
+        }
+    }
+
     /// Proves it on a terrain. `only` is the number of the one motion of a family that is asked in a sample.
     pub(super) fn prove(
         self,

@@ -97,6 +97,11 @@ impl<'a> Case<'a> {
         self.terrain.instances.iter().skip(number).step_by(count)
     }
 
+    /// The instance after this one.
+    fn next(self, instance: &Instance) -> Option<&'a Instance> {
+        self.terrain.instances.iter().find(|next| next.index > instance.index)
+    }
+
     fn words(self, instance: &Instance, motion: Motion) -> String {
         super::families::words(self.of, instance, motion)
     }

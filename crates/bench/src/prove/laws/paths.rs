@@ -26,10 +26,10 @@ pub(super) fn triangle(case: Case<'_>, tally: &mut Tally) -> Result<(), Error> {
     let motions = all_motions();
     for (number, &motion) in motions.iter().enumerate() {
         let mut asker = asker(&case.terrain.map, motion)?;
-        let share: Vec<_> = case.share(number, motions.len()).collect();
-        for pair in share.windows(2) {
-            let (Ends { start, goal, .. }, third) = (pair[0].ends, pair[1].ends.start);
-            let straight = asker.cost(pair[0].ends);
+        for instance in case.share(number, motions.len()) {
+            let Ends { start, goal, .. } = instance.ends;
+            let Some(third) = case.next(instance).map(|next| next.ends.start) else { continue };
+            let straight = asker.cost(instance.ends);
             let detour = asker.cost(Ends::new(start, third)).plus(&asker.cost(Ends::new(third, goal)));
             // An end that is no vertex makes no triangle.
             if !straight.is_path() || !asker.space.is_free(third) {
@@ -37,7 +37,7 @@ pub(super) fn triangle(case: Case<'_>, tally: &mut Tally) -> Result<(), Error> {
             }
             tally.count(CASES);
             tally.expect(straight.is_at_most(1.0, &detour), || {
-                format!("{}: {straight}, by {third} {detour}", case.words(pair[0], motion))
+                format!("{}: {straight}, by {third} {detour}", case.words(instance, motion))
             });
         }
     }
