@@ -2,9 +2,10 @@
 
 use std::{
     fs, io,
+    panic::{self, AssertUnwindSafe},
     path::{Path, PathBuf},
     sync::{
-        Mutex, PoisonError,
+        LazyLock, Mutex, PoisonError,
         atomic::{AtomicUsize, Ordering},
     },
     thread,
@@ -31,7 +32,7 @@ pub(super) struct Part {
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Done {
     pub(super) tally: Tally,
-    /// The seconds that one thread took.
+    /// The seconds of a processor that it took.
     pub(super) seconds: f64,
 }
 
@@ -42,13 +43,17 @@ impl Part {
     }
 
     fn prove(&self, pace: Pace) -> Result<Done, ProveError> {
-        let begin = Instant::now();
+        let begin = seconds();
         let (of, mut tally) = (self.name(), Tally::default());
+        let fault = |fault: String| ProveError::Wrong(format!("{}, {of}: {fault}", self.suite));
         for terrain in read(&self.map, &self.set, self.choice)? {
-            let proven = self.suite.prove((&of, &terrain), self.only, pace, &mut tally);
-            proven.map_err(|error| ProveError::Wrong(format!("{}, {of}: {error}", self.suite)))?;
+            let prove = || self.suite.prove((&of, &terrain), self.only, pace, &mut tally);
+            // The map on which an engine panics is what its reader needs.
+            let proven = panic::catch_unwind(AssertUnwindSafe(prove));
+            let proven = proven.map_err(|_| fault("an engine panicked".to_owned()))?;
+            proven.map_err(|error| fault(error.to_string()))?;
         }
-        Ok(Done { tally, seconds: begin.elapsed().as_secs_f64() })
+        Ok(Done { tally, seconds: seconds() - begin })
     }
 }
 
@@ -81,6 +86,15 @@ impl Kept {
         };
         write(&file).map_err(ProveError::at(&file))
     }
+}
+
+/// The seconds of a processor that this thread has had, where the system tells them: others may work on the
+/// same cores. Elsewhere those of the clock.
+fn seconds() -> f64 {
+    static BEGIN: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let told = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    let nanos = told.split(' ').next().and_then(|nanos| nanos.parse::<u64>().ok());
+    nanos.map_or_else(|| BEGIN.elapsed().as_secs_f64(), |nanos| nanos as f64 / 1e9)
 }
 
 /// Does `work` with so many threads for all that it does at once; where the system gives none, with those
@@ -117,7 +131,7 @@ pub(super) fn prove_all(
         let spawn = |_| scope.spawn(|| on_threads(1, work));
         let workers: Vec<_> = (0..threads).map(spawn).collect();
         let ended: Vec<_> = workers.into_iter().map(thread::ScopedJoinHandle::join).collect();
-        let panicked = || ProveError::Wrong("an engine panicked".to_owned());
+        let panicked = || ProveError::Wrong("a thread panicked".to_owned());
         ended.into_iter().try_for_each(|ended| ended.map_err(|_| panicked())?)
     })
 }

@@ -101,7 +101,7 @@ impl Page {
             columns.extend(OF_FAMILIES.map(|(name, about)| count(name, about)));
             columns.extend(CONTESTANTS.map(|name| count(name, "its answers that were compared")));
         }
-        columns.push(Column::time("seconds", "s", "the time that one thread took"));
+        columns.push(Column::time("seconds", "s", "the time of one core"));
         columns
     }
 }
@@ -121,7 +121,9 @@ pub(super) fn recorded(
             state.done.seconds = number("seconds");
             let counts = record.columns.iter().filter(|column| column.kind == ColumnKind::Count);
             for column in counts.filter(|column| column.name != "maps" && column.name != "of") {
-                state.done.tally.count_many(&column.name, number(&column.name) as u64);
+                if let Some(count) = row.number(&column.name) {
+                    state.done.tally.count_many(&column.name, count as u64);
+                }
             }
             states.insert((row.text(key).to_owned(), row.text("set").to_owned()), state);
         }
@@ -147,7 +149,7 @@ pub(super) fn write(
             let mut row = Row::new().key(key, suite).key("set", set).key("sources", sources.of(is_of_laws));
             row = row.with("maps", state.maps as f64).with("of", state.of as f64);
             row = row.with(WRONG, 0.0).with("seconds", state.done.seconds.round());
-            for (name, count) in state.done.tally.counts() {
+            for (name, count) in state.done.tally.counts().filter(|&(_, count)| count > 0) {
                 row = row.with(name, count as f64);
             }
             rows.push(row);
