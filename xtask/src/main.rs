@@ -6,9 +6,7 @@ use std::{ffi::OsString, process::ExitCode};
 use clap::{Args, Parser, Subcommand};
 use xtask::{
     c, ci, describe, download, fuzz, gppc, package,
-    program::{COMPARE, REPRODUCE, VERIFY},
-    c, ci, describe, download, gppc, package,
-    program::{COMPARE, REPRODUCE, SOAK, VERIFY},
+    program::{COMPARE, PROVE, REPRODUCE, SOAK, VERIFY},
     tidy, web,
 };
 
@@ -26,6 +24,8 @@ enum Task {
     Download(download::Options),
     /// Compare our costs with the scenarios' optima, or with those of independent programs
     Verify(HandedOn),
+    /// Ask every exact engine every public instance, and try laws that need no known cost
+    Prove(HandedOn),
     /// Time our engines beside other programs, on the same instances
     Compare(HandedOn),
     /// Run all engines in one process for a long time, on maps that change, and compare them
@@ -63,6 +63,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Download(options) => download::run(&options).map(done),
         Task::Verify(options) => VERIFY.run(&options.arguments),
+        Task::Prove(options) => PROVE.run(&options.arguments),
         Task::Compare(options) => COMPARE.run(&options.arguments),
         Task::Soak(options) => SOAK.run(&options.arguments),
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),

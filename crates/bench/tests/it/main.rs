@@ -5,5 +5,6 @@ mod costs;
 mod measure;
 mod pages;
 mod problem;
+mod prove;
 mod soak;
 mod verify;
