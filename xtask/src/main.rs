@@ -6,7 +6,7 @@ use std::{ffi::OsString, process::ExitCode};
 use clap::{Args, Parser, Subcommand};
 use xtask::{
     c, ci, describe, download, gppc, package,
-    program::{COMPARE, REPRODUCE, VERIFY},
+    program::{COMPARE, PROVE, REPRODUCE, VERIFY},
     tidy, web,
 };
 
@@ -24,6 +24,8 @@ enum Task {
     Download(download::Options),
     /// Compare our costs with the scenarios' optima, or with those of independent programs
     Verify(HandedOn),
+    /// Ask every exact engine every public instance, and try laws that need no known cost
+    Prove(HandedOn),
     /// Time our engines beside other programs, on the same instances
     Compare(HandedOn),
     /// Measure the papers' tables and figures, and write them beside the published values to docs/results
@@ -57,6 +59,7 @@ fn main() -> ExitCode {
     let outcome = match Cli::parse().task {
         Task::Download(options) => download::run(&options).map(done),
         Task::Verify(options) => VERIFY.run(&options.arguments),
+        Task::Prove(options) => PROVE.run(&options.arguments),
         Task::Compare(options) => COMPARE.run(&options.arguments),
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
         Task::Describe => describe::run().map(done),

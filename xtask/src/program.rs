@@ -21,6 +21,8 @@ pub struct Program {
 
 /// Compares costs with known ones.
 pub const VERIFY: Program = Program { package: "mediant-bench", name: "verify" };
+/// Asks every exact engine every public instance.
+pub const PROVE: Program = Program { package: "mediant-bench", name: "prove" };
 /// Times engines beside other programs.
 pub const COMPARE: Program = Program { package: "mediant-bench", name: "compare" };
 /// Reproduces the papers' tables and figures.

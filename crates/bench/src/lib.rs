@@ -15,8 +15,8 @@
 //! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
 //!   of its searches.
 //! * [`ReferenceTimings`]: the times of other programs; [`Comparison`]: our ratio to each.
-//! * [`compare`] and [`verify`]: the programs behind `cargo xtask compare` and `cargo xtask verify`. `verify`
-//!   measures no time, but needs the same: all engines, and the benchmark sets.
+//! * [`compare`], [`verify`] and [`prove`]: the programs behind the chores of these names. The last two
+//!   measure nothing, but need the same: all engines, and the benchmark sets.
 //!
 //! Not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
 //! `mediant-papers`). The criterion benches are in `benches/`.
@@ -25,9 +25,11 @@ mod baseline;
 pub mod compare;
 mod comparison;
 mod competitor;
+mod grounds;
 mod measure;
 mod preparation;
 mod problem;
+pub mod prove;
 #[cfg(doctest)]
 mod readme;
 mod reference_timings;

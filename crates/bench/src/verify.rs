@@ -81,7 +81,7 @@ pub enum VerifyError {
 }
 
 /// A number that may be written with underscores.
-fn number(text: &str) -> Result<u64, std::num::ParseIntError> {
+pub(crate) fn number(text: &str) -> Result<u64, std::num::ParseIntError> {
     text.replace('_', "").parse()
 }
 

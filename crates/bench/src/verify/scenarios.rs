@@ -2,14 +2,15 @@
 
 use std::{io, path::Path};
 
-use mediant::{Engine, Error, Map, Motion, Planner, Setup};
-use mediant_formats::{Ground, MapFile, Scenario, scenario_tolerance};
+use mediant::{Engine, Error, Motion, Planner, Setup};
+use mediant_formats::{Ground, Scenario, scenario_tolerance};
 use mediant_moves::FiniteK;
 use mediant_search::Ends;
 use mediant_sets::{Manifest, progress, root};
 use rayon::prelude::*;
 
 use super::{Options, Relation, Tally, VerifyError, cost};
+use crate::grounds::{Grounds, OTHER_MAPS};
 
 /// The setup of an engine for the problem of the scenario files: k = 3 between centers, no corner cut.
 fn scenarios_for(engine: Engine) -> Result<(Setup, Relation), VerifyError> {
@@ -51,8 +52,7 @@ pub(super) fn against_scenarios(
         let tallies: Vec<Tally> = maps
             .par_iter()
             .map(|map| {
-                scenario_of(setup, relation, map, options.every.get(), set.name == OTHER_MAPS)
-                    .inspect(|_| bar.inc(1))
+                scenario_of(setup, relation, (map, &set.name), options.every.get()).inspect(|_| bar.inc(1))
             })
             .collect::<Result<_, _>>()?;
         bar.finish_and_clear();
@@ -93,32 +93,27 @@ pub(super) fn against_scenarios(
     Ok(total)
 }
 
-/// The set whose scenarios were made on other maps than those it holds, and whose starts may be in water or
-/// among trees: each query is answered on the ground of its start.
-const OTHER_MAPS: &str = "wc3maps512";
 /// The instances of [`OTHER_MAPS`] that are not compared: whose end is blocked, on a cliff line `@` one cell
 /// wide; whose reference is shorter than every path on the map; whose reference is longer than one (377 among
 /// trees, 1 in water).
 const KNOWN: [u64; 3] = [411, 5_182, 378];
 
 /// A map and its planners, one for each ground that was stood on; of other sets one.
-struct Grounds {
+struct Planners {
     setup: Setup,
-    file: MapFile,
-    by_ground: bool,
+    grounds: Grounds,
     planners: Vec<(Option<Ground>, Planner)>,
 }
 
-impl Grounds {
+impl Planners {
     /// The cost of the answer to a query; `None` where there is no path.
     fn cost(&mut self, query: Ends) -> Result<Option<f64>, Error> {
-        let ground = if self.by_ground { self.file.ground(query.start.x, query.start.y) } else { None };
+        let ground = self.grounds.ground(query.start);
         let known = self.planners.iter().position(|(of, _)| *of == ground);
         let at = match known {
             Some(at) => at,
             None => {
-                let grid = ground.map_or_else(|| self.file.to_grid(), |ground| self.file.ground_grid(ground));
-                self.planners.push((ground, self.setup.planner(&Map::from(grid))?));
+                self.planners.push((ground, self.setup.planner(&self.grounds.map(ground))?));
                 self.planners.len() - 1
             }
         };
@@ -131,20 +126,20 @@ impl Grounds {
 fn scenario_of(
     setup: Setup,
     relation: Relation,
-    path: &Path,
+    (path, set): (&Path, &str),
     every: usize,
-    other_map: bool,
 ) -> Result<Tally, VerifyError> {
-    let file = MapFile::read(path)?;
+    let grounds = Grounds::read(path, set)?;
+    let other_map = grounds.are_of_other_maps();
     let scenario = Scenario::read(path.with_extension("map.scen"))?;
-    let mut grounds = Grounds { setup, file, by_ground: other_map, planners: Vec::new() };
+    let mut planners = Planners { setup, grounds, planners: Vec::new() };
     let mut tally = Tally::default();
     for (index, instance) in scenario.instances().iter().enumerate().step_by(every) {
         let reachable = instance.optimal > 0.0 || instance.start == instance.goal;
         let optimal = reachable.then_some(instance.optimal);
         let tolerance = scenario_tolerance(instance.optimal);
         let what = || format!("{setup}, {} instance {index}", path.display());
-        let found = match grounds.cost(Ends::new(instance.start, instance.goal)) {
+        let found = match planners.cost(Ends::new(instance.start, instance.goal)) {
             Ok(found) => found,
             Err(Error::Query(_)) if other_map => {
                 tally.blocked += 1;

@@ -5,4 +5,5 @@ mod costs;
 mod measure;
 mod pages;
 mod problem;
+mod prove;
 mod verify;
