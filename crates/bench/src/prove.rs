@@ -79,7 +79,7 @@ pub struct Options {
     record: bool,
 }
 
-/// How much the slow engines are asked.
+/// The share of the instances that slow engines are asked.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
     /// Every so-manieth instance.

@@ -101,7 +101,6 @@ impl Page {
             columns.extend(OF_FAMILIES.map(|(name, about)| count(name, about)));
             columns.extend(CONTESTANTS.map(|name| count(name, "its answers that were compared")));
         }
-        columns.push(Column::time("seconds", "s", "the time of one core"));
         columns
     }
 }
@@ -118,7 +117,6 @@ pub(super) fn recorded(
         for row in record.rows.iter().filter(|row| row.text("sources") == sources.of(is_of_laws)) {
             let number = |column: &str| row.number(column).unwrap_or(0.0);
             let mut state = State { maps: number("maps") as usize, ..State::default() };
-            state.done.seconds = number("seconds");
             let counts = record.columns.iter().filter(|column| column.kind == ColumnKind::Count);
             for column in counts.filter(|column| column.name != "maps" && column.name != "of") {
                 if let Some(count) = row.number(&column.name) {
@@ -148,7 +146,7 @@ pub(super) fn write(
         for (suite, set, state) in new {
             let mut row = Row::new().key(key, suite).key("set", set).key("sources", sources.of(is_of_laws));
             row = row.with("maps", state.maps as f64).with("of", state.of as f64);
-            row = row.with(WRONG, 0.0).with("seconds", state.done.seconds.round());
+            row = row.with(WRONG, 0.0);
             for (name, count) in state.done.tally.counts().filter(|&(_, count)| count > 0) {
                 row = row.with(name, count as f64);
             }

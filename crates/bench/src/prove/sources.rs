@@ -1,4 +1,4 @@
-//! What a result depends on: the sources of the libraries, and of the comparisons.
+//! The sources on which a result depends: those of the libraries, and of the comparisons.
 
 use std::{
     fs,

@@ -1,4 +1,4 @@
-//! What is proven: families and laws by their names.
+//! Suites: families and laws by their names.
 
 use std::fmt;
 

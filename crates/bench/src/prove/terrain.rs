@@ -30,7 +30,7 @@ pub(super) struct Terrain {
 /// The instances that are asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
-    /// Those whose number this divides.
+    /// All whose number this divides.
     Every(usize),
     /// An even sample of about so many.
     Few(usize),

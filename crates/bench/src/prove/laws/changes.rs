@@ -1,8 +1,8 @@
 //! The same answers in another way: after repairs, on costs that are all 1, by several threads.
 
 use mediant::{
-    Change, CornerRule, DiagonalGap, Engine, Error, FiniteK, Index, K, Motion, Path, Planners, Query, Rules,
-    Space,
+    Change, CornerRule, DiagonalGap, Engine, Error, FiniteK, Index, K, Map, Motion, Path, Planners, Query,
+    Rules, Space,
 };
 use mediant_oracle::{Rng, random_change};
 
@@ -41,6 +41,9 @@ fn repaired_engines() -> [(Engine, Motion, Same); 10] {
 /// The edits that are made one after another.
 const EDITS: usize = 3;
 
+/// The instances that each edit puts something in the way of: few, since after large edits all is made anew.
+const DISTURBED: usize = 3;
+
 /// A repaired index equals a new one.
 pub(super) fn repaired(case: Case<'_>, tally: &mut Tally) -> Result<(), Error> {
     for (engine, motion, same) in repaired_engines() {
@@ -49,7 +52,8 @@ pub(super) fn repaired(case: Case<'_>, tally: &mut Tally) -> Result<(), Error> {
         let mut index = space.prepare(engine)?;
         for edit in 0..EDITS {
             let grid = random_change(&mut rng, space.map().grid()).after().clone();
-            let change = Change::to(&space, &grid.into());
+            let map = disturbed(case, &grid.into(), &mut rng)?;
+            let change = Change::to(&space, &map);
             index = index.repair(&change)?;
             space = change.after().clone();
             let anew = space.map().space(motion)?.prepare(engine)?;
@@ -65,6 +69,26 @@ fn seed(case: Case<'_>) -> u64 {
     case.of
         .bytes()
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// The map with noise on the ways of some instances, so that an edit concerns those that are asked.
+fn disturbed(case: Case<'_>, map: &Map, rng: &mut Rng) -> Result<Map, Error> {
+    let mut asker = asker(map, Motion::centers(FiniteK::N8))?;
+    let mut cells = Vec::new();
+    for _ in 0..DISTURBED {
+        let Some(instance) = rng.pick(&case.terrain.instances) else { continue };
+        let Some(path) = asker.path(instance.ends).1 else { continue };
+        let ways: Vec<_> = path.vertices().collect();
+        let Some(middle) = rng.pick(&ways) else { continue };
+        for cell in (0..25).map(|cell| (middle.x + cell % 5 - 2, middle.y + cell / 5 - 2)) {
+            let is_inside =
+                (0..map.width() as i32).contains(&cell.0) && (0..map.height() as i32).contains(&cell.1);
+            if is_inside && rng.chance(30) {
+                cells.push((cell, !map.is_blocked(cell)));
+            }
+        }
+    }
+    map.edit_cells(cells)
 }
 
 fn same_index(

@@ -1,4 +1,4 @@
-//! What paths have in common: the way back, ways by a third vertex, parts.
+//! Laws that all paths have in common: the way back, ways by a third vertex, parts.
 
 use mediant::{Ends, Error, Path, Vertex};
 
