@@ -6,8 +6,7 @@
 //! keeps are made there.
 //!
 //! The allocator of glibc keeps what lies between pieces that live, more so the larger the maps are: on sides
-//! of
-//! 96 cells 15 MB became 40 in 132 rounds, with nothing lost. With `MALLOC_ARENA_MAX=1`,
+//! of 96 cells 15 MB became 40 in 132 rounds, with nothing lost. With `MALLOC_ARENA_MAX=1`,
 //! `MALLOC_MMAP_THRESHOLD_=16384` and `MALLOC_TRIM_THRESHOLD_=65536` in the environment it gives memory back,
 //! and the same seeds stay at 11 MB in each quarter: long soaks are run so.
 
