@@ -4,6 +4,11 @@
 //! of that, and how much differs from round to round; but the median of a quarter of all rounds does not
 //! grow, unless something leaks. The first quarter counts for nothing: code, thread stacks and what a process
 //! keeps are made there.
+//!
+//! With glibc's defaults the median grew on sides of 96 cells. With `MALLOC_ARENA_MAX=1`,
+//! `MALLOC_MMAP_THRESHOLD_=16384` and `MALLOC_TRIM_THRESHOLD_=65536` in the environment it stayed at 11 MB in
+//! each quarter of 88 shorter rounds. That points to what the allocator keeps; a count of allocated bytes
+//! over the same rounds has not been made.
 
 use std::fs;
 
