@@ -19,7 +19,6 @@ pub(crate) const EXPERIMENTS: &[Experiment] = &[
     hammoud::TABLES,
     hammoud::FIGURES,
     teleisa::RUNS,
-    teleisa::TIES,
     engines::ENGINES,
     growth::GROWTH,
     families::FAMILIES,

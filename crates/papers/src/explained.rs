@@ -5,7 +5,7 @@
 
 use mediant_report::Record;
 
-use crate::{rivera, teleisa};
+use crate::rivera;
 
 /// A cause that an experiment of its own measures.
 pub(crate) struct Cause {
@@ -18,12 +18,12 @@ pub(crate) struct Cause {
 }
 
 /// All of them.
-const CAUSES: [&[Cause]; 2] = [rivera::CAUSES, teleisa::CAUSES];
+const CAUSES: &[Cause] = rivera::CAUSES;
 
 /// The causes of a claim, one a line, with the texts of those that have an experiment of their own.
 pub(crate) fn explained<'r>(causes: &str, record: impl Fn(&str) -> Option<&'r Record>) -> String {
     let line = |line: &str| {
-        let Some(cause) = CAUSES.into_iter().flatten().find(|cause| cause.name == line) else {
+        let Some(cause) = CAUSES.iter().find(|cause| cause.name == line) else {
             return line.to_owned();
         };
         let text = record(cause.experiment).and_then(cause.text);
@@ -45,7 +45,7 @@ mod tests {
         assert_eq!(unknown, "draw\nNot measured here: experiment `rivera2017-causes` tells it.");
         let records = records(&root().join("docs/results")).unwrap();
         let known = |id: &str| records.iter().find(|(_, record)| record.id == id).map(|(_, record)| record);
-        for cause in CAUSES.into_iter().flatten() {
+        for cause in CAUSES {
             let text = explained(cause.name, known);
             assert!(!text.starts_with("Not measured") && text != cause.name, "{text}");
         }

@@ -10,8 +10,6 @@ pub(crate) enum Ties {
     NearerFirst,
     /// None: the heap compares f alone.
     Unordered,
-    /// The one that entered the list first.
-    FirstIn,
 }
 
 /// An entry; the key is compared, and the vertex is not.
@@ -27,32 +25,24 @@ pub(super) struct Heap {
     entries: Vec<Entry>,
     /// The slot of each vertex that is in the list.
     slots: Vec<u32>,
-    entered: u64,
 }
 
 impl Heap {
     /// An empty heap for so many vertices.
     pub(super) fn new(ties: Ties, vertices: usize) -> Self {
-        Self { ties, entries: Vec::new(), slots: vec![0; vertices], entered: 0 }
+        Self { ties, entries: Vec::new(), slots: vec![0; vertices] }
     }
 
     pub(super) fn clear(&mut self) {
         self.entries.clear();
-        self.entered = 0;
-    }
-
-    pub(super) const fn len(&self) -> usize {
-        self.entries.len()
     }
 
     /// Adds a vertex that is not in the list. Returns the swaps.
     pub(super) fn push(&mut self, id: VertexId, f: Cost, h: Cost) -> u64 {
-        self.entered += 1;
         let (f, coarse) = (f.to_bits(), (h.to_bits() >> 16).min(u64::from(u32::MAX)));
         let key = match self.ties {
             Ties::NearerFirst => (f, coarse, id.0),
             Ties::Unordered => (f, 0, 0),
-            Ties::FirstIn => (f, self.entered, 0),
         };
         self.entries.push(Entry { key, id });
         self.rise(self.entries.len() - 1, Entry { key, id })

@@ -199,7 +199,7 @@ fn by_engine(grid: &Arc<Grid>, queries: &[Ends], setup: &str) -> Result<Part, Er
     for answer in run(&mut Study::new(grid, queries, 0), setup)?.answers {
         let answer = answer.ok_or_else(|| Error::Reproduce(format!("{setup}: no answer")))?;
         let (expanded, percolations) = (answer.counters.expanded, answer.counters.percolations);
-        part.add(Found { cost: answer.cost, moves: answer.moves, expanded, percolations, entries: 0 });
+        part.add(Found { cost: answer.cost, moves: answer.moves, expanded, percolations });
     }
     Ok(part)
 }
