@@ -71,7 +71,7 @@ impl Rng {
             let count = [0x100, 0x1_0000].iter().filter(|&&end| n > end).count();
             return (self.taken([1, 2, 4][count]) % u64::from(n.max(1))) as u32;
         }
-        (((self.bits() >> 32) * n as u64) >> 32) as u32
+        (((self.bits() >> 32) * u64::from(n)) >> 32) as u32
     }
 
     /// True with a probability of `percent` / 100.
