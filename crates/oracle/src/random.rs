@@ -9,8 +9,8 @@
 /// assert_eq!(a.below(6), b.below(6));
 /// ```
 ///
-/// One [of bytes](Self::of_bytes) takes its numbers from these, so that a fuzzer that changes a byte changes one
-/// choice of what is drawn.
+/// One [of bytes](Self::of_bytes) takes its numbers from these, so that a fuzzer that changes a byte changes
+/// one choice of what is drawn.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rng {
     state: u64,
@@ -25,8 +25,8 @@ impl Rng {
         Self { state: seed, bytes: Vec::new() }
     }
 
-    /// The generator whose numbers are these bytes, and after them those of seed 0: so what draws until it has
-    /// enough comes to an end.
+    /// The generator whose numbers are these bytes, and after them those of seed 0: so what draws until it
+    /// has enough comes to an end.
     ///
     /// ```
     /// use mediant_oracle::Rng;

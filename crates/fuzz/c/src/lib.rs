@@ -1,7 +1,8 @@
 //! The library for C with the programs of calls that its own test draws, for a fuzzing target.
 //!
-//! **The key decision: the sources of `crates/c` are compiled again, as modules of this package.** That library is
-//! made for C alone and no Rust program links it; its programs of calls are test code, and need the oracle.
+//! **The key decision: the sources of `crates/c` are compiled again, as modules of this package.** That
+//! library is made for C alone and no Rust program links it; its programs of calls are test code, and need
+//! the oracle.
 
 #[path = "../../../c/src/about.rs"]
 pub mod about;

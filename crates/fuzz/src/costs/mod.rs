@@ -1,5 +1,5 @@
-//! Programs where cells have costs: edits, repairs, saved indexes, fields, and queries with wishes, in any order.
-//! Each answer is held to the oracle, whose costs are exact integrals.
+//! Programs where cells have costs: edits, repairs, saved indexes, fields, and queries with wishes, in any
+//! order. Each answer is held to the oracle, whose costs are exact integrals.
 //!
 //! Any bytes are a program, as in `sequence`. Its text is in the message of a failure.
 
