@@ -13,6 +13,7 @@
 //! hour passes without a new edge, so that many would take days.
 
 mod bytes;
+mod costs;
 mod indexes;
 mod maps;
 mod numbers;
@@ -43,6 +44,16 @@ pub const TARGETS: &[Target] = &[
         name: "sequence",
         about: "edits, repairs, saved indexes, queries with wishes",
         run: sequence::run,
+    },
+    Target {
+        name: "sequence-costs",
+        about: "the same where cells have costs: edits, repairs, fields, wishes",
+        run: costs::run,
+    },
+    Target {
+        name: "c-calls",
+        about: "calls of the library for C, right and mistaken",
+        run: mediant_fuzz_c::run,
     },
     Target { name: "map", about: "MovingAI maps, maps drawn as text, tiles", run: maps::run },
     Target { name: "picture", about: "pictures of maps: PNG, PGM, PBM", run: pictures::run_picture },

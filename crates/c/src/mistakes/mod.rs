@@ -6,6 +6,8 @@
 //! library themselves. While it draws, it notes which codes the call may return. What comes back is held
 //! against the oracle, which shares no code with the engines, and against what the program has made so far.
 //!
+//! A program can be drawn from bytes instead of a seed ([`run_bytes`]): so a fuzzer chooses each argument.
+//!
 //! `MEDIANT_CALLS=1000000` makes so many calls, `MEDIANT_SEED=7` begins with that program, and
 //! `MEDIANT_SAY=1` names each program before it runs: after a crash the last one did it.
 
@@ -29,6 +31,8 @@ use std::{
     thread,
 };
 
+use mediant_oracle::Rng;
+
 use self::world::World;
 use crate::about::mediant_objects;
 
@@ -50,14 +54,28 @@ fn number(name: &str) -> Option<u64> {
 /// The calls of a program at most: so many that its objects have a history.
 const LENGTH: u64 = 400;
 
-/// Runs a program, and returns the numbers of its calls and of those that did what they should.
+/// Runs the program of a seed, and returns the numbers of its calls and of those that did what they should.
 fn run(seed: u64, is_alone: bool, length: u64) -> (u64, u64) {
+    let name = format!("MEDIANT_SEED={seed}");
     if env::var_os("MEDIANT_SAY").is_some() {
-        eprintln!("MEDIANT_SEED={seed}");
+        eprintln!("{name}");
     }
-    let mut world = World::new(seed, is_alone);
+    run_drawn(Rng::new(seed), &name, is_alone, |world| world.calls < length)
+}
+
+/// Runs the program that is drawn from these bytes until they end, at most [`LENGTH`] calls: what a fuzzer
+/// calls, alone in its process.
+pub(crate) fn run_bytes(bytes: &[u8]) {
+    let goes_on = |world: &World| world.rng.has_bytes() && world.calls < LENGTH;
+    run_drawn(Rng::of_bytes(bytes), &format!("bytes {}", bytes.escape_ascii()), true, goes_on);
+}
+
+/// Runs a program as long as it goes on, and returns the numbers of its calls and of those that did what they
+/// should.
+fn run_drawn(rng: Rng, name: &str, is_alone: bool, goes_on: impl Fn(&World) -> bool) -> (u64, u64) {
+    let mut world = World::new(rng, is_alone);
     let work = catch_unwind(AssertUnwindSafe(|| {
-        while world.calls < length {
+        while goes_on(&world) {
             step(&mut world);
             if is_alone {
                 assert_eq!(mediant_objects(), world.held(), "objects");
@@ -70,7 +88,7 @@ fn run(seed: u64, is_alone: bool, length: u64) -> (u64, u64) {
     }));
     if let Err(broke) = work {
         let last = world.log.len().saturating_sub(40);
-        eprintln!("MEDIANT_SEED={seed}, after {} calls:\n  {}", world.calls, world.log[last..].join("\n  "));
+        eprintln!("{name}, after {} calls:\n  {}", world.calls, world.log[last..].join("\n  "));
         resume_unwind(broke);
     }
     (world.calls, world.done)
@@ -115,6 +133,11 @@ fn no_call_does_harm_and_no_answer_is_wrong() {
     let (made, done) = programs(first, calls * 3 / 4, true);
     // Neither kind is seldom: a program without mistakes tests none, one of mistakes alone makes nothing.
     assert!(made < 4000 || (made / 3..made * 9 / 10).contains(&done), "{done} right calls of {made}");
+    for seed in 0..20 {
+        let mut rng = Rng::new(first + seed);
+        let drawn: Vec<u8> = (0..100 + 20 * seed).map(|_| rng.bits() as u8).collect();
+        run_bytes(&drawn);
+    }
     thread::scope(|scope| {
         for number in [1, 2] {
             scope.spawn(move || programs(first + (number << 32), calls / 8, false));

@@ -94,9 +94,9 @@ pub(super) struct World {
 }
 
 impl World {
-    pub(super) fn new(seed: u64, is_alone: bool) -> Self {
+    pub(super) fn new(rng: Rng, is_alone: bool) -> Self {
         Self {
-            rng: Rng::new(seed),
+            rng,
             maps: Kept::new(),
             spaces: Kept::new(),
             indexes: Kept::new(),
