@@ -363,3 +363,22 @@ impl Sets {
         (self.parents, count)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row that becomes one run of 64 cells has one label.
+    #[test]
+    fn a_small_change_keeps_one_label_a_run() {
+        let map = Arc::new(Grid::from_fn(64, 64, |x, y| (x, y) == (30, 30)).expect("a map"));
+        for connectivity in [Connectivity::Four, Connectivity::Eight] {
+            let change = Change::new(Arc::clone(&map)).edit_cells([(30, 30, false)]);
+            let [after, new] = [
+                Components::new(&map, connectivity).after(&change),
+                Components::new(change.after(), connectivity),
+            ];
+            assert_eq!(after.memory_bytes(), new.memory_bytes(), "{connectivity:?}");
+        }
+    }
+}

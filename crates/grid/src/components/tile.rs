@@ -145,8 +145,9 @@ impl Tile {
             self.for_each_contact(other, direction, connectivity, |[at, _]| {
                 let number = &mut numbers[self.label(at) as usize];
                 if *number == u32::MAX && before.border[at.0 as usize] >> at.1 & 1 == 1 {
+                    // It met others, for the cell beside it did not change.
                     let like = before.label(at);
-                    if met.binary_search(&like).is_ok() && !taken.contains(&like) {
+                    if !taken.contains(&like) {
                         *number = like;
                         taken.push(like);
                     }

@@ -221,7 +221,7 @@ fn components_tell_whether_there_is_any_path() {
 }
 
 /// The components by flooding, numbered row by row.
-fn flood(grid: &Grid, connectivity: Connectivity) -> std::collections::HashMap<Vertex, u32> {
+pub(crate) fn flood(grid: &Grid, connectivity: Connectivity) -> std::collections::HashMap<Vertex, u32> {
     let mut labels = std::collections::HashMap::new();
     let mut count = 0;
     let is_free = |at: Vertex| grid.is_free(at.x, at.y);
@@ -277,7 +277,11 @@ fn components_of_wide_maps_are_those_of_flooding() {
 }
 
 /// Checks that two cells have the same number by one exactly if they have by the other.
-fn same_partition(components: &Components, labels: &std::collections::HashMap<Vertex, u32>, message: &str) {
+pub(crate) fn same_partition(
+    components: &Components,
+    labels: &std::collections::HashMap<Vertex, u32>,
+    message: &str,
+) {
     let mut number_of = std::collections::HashMap::new();
     for (&at, &label) in labels {
         let found = components.of(at);

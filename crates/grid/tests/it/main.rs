@@ -2,6 +2,7 @@
 
 mod agents;
 mod clearance;
+mod components;
 mod edits;
 mod interrupts;
 mod legality;
