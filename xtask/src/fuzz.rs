@@ -1,9 +1,9 @@
 //! `cargo xtask fuzz`: runs the targets of `crates/fuzz` by libFuzzer, and adds up what ran.
 //!
-//! The targets take turns. Each begins with its kept inputs, with valid ones that the library writes, and with
-//! what earlier runs on this machine found, in `target/fuzz`. A turn ends when the target's share of the time is
-//! over, or when it was quiet: when it has reached no new edge of the code for so long. The record,
-//! `docs/proof/fuzzing.json`, adds up the executions, so that fuzzing goes on from day to day.
+//! The targets take turns. Each begins with its kept inputs, with valid ones that the library writes, and
+//! with what earlier runs on this machine found, in `target/fuzz`. A turn ends when the target's share of
+//! the time is over, or when it was quiet: when it has reached no new edge of the code for so long. The
+//! record, `docs/proof/fuzzing.json`, adds up the executions, so that fuzzing goes on from day to day.
 
 mod log;
 mod record;
@@ -145,8 +145,8 @@ impl Fuzzer {
         command
     }
 
-    /// Fuzzes a target until its share of the time is over, or it was quiet for so long; and the files of inputs that
-    /// it treats wrongly.
+    /// Fuzzes a target until its share of the time is over, or it was quiet for so long; and the files of
+    /// inputs that it treats wrongly.
     fn turn(&self, name: &str, share: Duration, quiet: Duration) -> Result<(Turn, Vec<PathBuf>), Error> {
         let corpus = self.corpus(name);
         let findings = self.folder.join("found").join(name);

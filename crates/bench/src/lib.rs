@@ -15,8 +15,8 @@
 //! * [`Study`]: runs setups on the queries of one map; [`Run`]: the answers of one of them, with all counts
 //!   of its searches.
 //! * [`ReferenceTimings`]: the times of other programs; [`Comparison`]: our ratio to each.
-//! * [`compare`], [`verify`], [`prove`] and [`soak`]: the programs behind the chores of the same names. The last
-//!   three measure little or nothing, but need the same: all engines, and the benchmark sets.
+//! * [`compare`], [`verify`], [`prove`] and [`soak`]: the programs behind the chores of the same names. The
+//!   last three measure little or nothing, but need the same: all engines, and the benchmark sets.
 //!
 //! Not here: the benchmark sets (`mediant-sets`), and tables and files of results (`mediant-report`,
 //! `mediant-papers`). The criterion benches are in `benches/`.

@@ -57,8 +57,8 @@ pub enum CostsError {
         /// The greatest.
         greatest: f64,
     },
-    /// The width or the height of a cell is no number from 10⁻¹²⁰ to 10¹²⁰, or one is more than 65,536 times the
-    /// other.
+    /// The width or the height of a cell is no number from 10⁻¹²⁰ to 10¹²⁰, or one is more than 65,536
+    /// times the other.
     #[error(
         "cells of {x} × {y}: width and height must be positive numbers, from 1e-120 to 1e120, and neither more than \
          65,536 times the other"

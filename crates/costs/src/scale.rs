@@ -31,8 +31,9 @@ pub(crate) struct Scale {
 
 /// The most and the fewest binary digits below the least cost of a straight move.
 const DIGITS: (i32, i32) = (32, 14);
-/// The least and the greatest cost, time, friction or side of a cell. A product of two, on the largest map, and
-/// its unit are then numbers of `f64` of full precision: further out a unit becomes 0, or a length infinite.
+/// The least and the greatest cost, time, friction or side of a cell. A product of two, on the largest map,
+/// and its unit are then numbers of `f64` of full precision: further out a unit becomes 0, or a length
+/// infinite.
 const AMOUNTS: (f64, f64) = (1e-120, 1e120);
 /// The greatest ratio of two costs that are not integers: each is then rounded by 2⁻¹⁷ of itself at most.
 pub(crate) const GREATEST_RATIO: f64 = (1_u64 << 16) as f64;

@@ -20,8 +20,8 @@ const MAPS: [&[&str]; 3] = [
     &["....", "...."],
 ];
 
-/// All engines whose indexes are saved, on small maps, under a few rules; with all their options on the first. A byte
-/// chooses one.
+/// All engines whose indexes are saved, on small maps, under a few rules; with all their options on the
+/// first. A byte chooses one.
 pub(crate) static SAVED: LazyLock<Vec<Saved>> = LazyLock::new(|| {
     let five = FiniteK::new(5).expect("a k");
     let motions = [

@@ -14,7 +14,8 @@ use mediant_formats::Fraction;
 
 use crate::bytes::Bytes;
 
-/// The first byte chooses: a text of one of the types, or lines `name=value` of a call in one of the spellings.
+/// The first byte chooses: a text of one of the types, or lines `name=value` of a call in one of the
+/// spellings.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
     let what = bytes.byte();

@@ -5,7 +5,8 @@
 use mediant_fuzz::{TARGETS, Target, kept, seeds};
 use mediant_oracle::Rng;
 
-/// Changed inputs of each seed and each kept input; of a program, which takes a thousand times as long, fewer.
+/// Changed inputs of each seed and each kept input; of a program, which takes a thousand times as long,
+/// fewer.
 const CHANGES: (u64, u64) = (300, 30);
 /// The most bytes of one kept input, and of all together: they are in the history for ever.
 const MOST_BYTES: (usize, usize) = (2048, 150_000);

@@ -207,6 +207,10 @@ fn listed(claims: &[&Claim]) -> String {
     format!("{} numbers, by {least:+.1} to {most:+.1} %: {}.", claims.len(), names.join("; "))
 }
 
+/// The columns of the table of all experiments: verdicts of counts, then of times.
+const COLUMNS: [&str; 13] =
+    ["page", "what", "instances", "✓", "≈", "✗", "–", "times: ✓", "≈", "✗", "–", "revision", "`--only`"];
+
 /// The page `README.md`: a table of all experiments.
 fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     let mut text = "# Results\n\nEvery table and figure of the five papers, measured by `cargo xtask \
@@ -219,22 +223,7 @@ fn index(shown: &[(&Experiment, &Record, Section)]) -> String {
     if shown.iter().any(|(_, record, _)| record.provenance.quick) {
         text += "> A quick run, on an even sample.\n\n";
     }
-    let mut table = Table::new([
-        "page",
-        "what",
-        "instances",
-        "✓",
-        "≈",
-        "✗",
-        "–",
-        "times: ✓",
-        "≈",
-        "✗",
-        "–",
-        "revision",
-        "`--only`",
-    ])
-    .names(2);
+    let mut table = Table::new(COLUMNS).names(2);
     let mut total = [0; 8];
     for (experiment, record, section) in shown {
         let page = experiment.page;

@@ -39,7 +39,7 @@ pub(super) enum Expands {
     AroundCorners,
 }
 
-/// What the program chooses.
+/// The choices of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Choices {
     pub(super) estimate: Estimate,
@@ -315,8 +315,8 @@ mod tests {
         assert_eq!([touches(3, 0), touches(4, 0), touches(4, 1), touches(5, 1)], [true, false, true, false]);
     }
 
-    /// On open ground at k = 2 all paths that lead nearer have the same f: the nearer vertex first goes straight.
-    /// A heap that compares f alone swaps less.
+    /// On open ground at k = 2 all paths that lead nearer have the same f: the nearer vertex first goes
+    /// straight. A heap that compares f alone swaps less.
     #[test]
     fn ties_decide_on_open_ground() {
         let grid = Arc::new(Grid::from_fn(9, 9, |_, _| false).unwrap());

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::record::Turn;
 
-/// What the lines have said so far.
+/// The sum of the lines so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Log {
     executions: u64,

@@ -53,7 +53,7 @@ impl Kind {
         Self::Field,
         Self::Table,
     ];
-    /// Those that threads ask in turn, as often as they stand here.
+    /// The kinds that threads ask in turn, as often as they stand here.
     pub(super) const ASKED: [Self; 16] = [
         Self::Path,
         Self::Path,

@@ -1,4 +1,4 @@
-//! What a soak measured, as text and as a record.
+//! Measurements of a soak, as text and as a record.
 
 use std::{fs, io, path::Path};
 

@@ -47,8 +47,6 @@ pub mod words;
 #[allow(dead_code, unused_imports, reason = "programs of seeds are run by the test in crates/c")]
 #[path = "../../../c/src/mistakes/mod.rs"]
 mod mistakes;
+mod run;
 
-/// Runs the program of calls that these bytes are. It panics where a call does what it should not.
-pub fn run(bytes: &[u8]) {
-    mistakes::run_bytes(bytes);
-}
+pub use run::run;

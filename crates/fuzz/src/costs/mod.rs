@@ -20,7 +20,7 @@ const MOST: usize = 12;
 /// The costs that cells have: few, so that paths tie, and great ones beside small ones.
 const WEIGHTS: [u32; 8] = [1, 1, 2, 3, 5, 40, 1000, 65_535];
 
-/// What an engine is asked, and what was asked of it so far.
+/// An engine on a map, and the operations so far.
 struct Run {
     engine: Engine,
     motion: Motion,

@@ -1,8 +1,8 @@
 //! Programs: edits of a map, repairs, saved and loaded indexes, and queries with wishes, in any order. Each
 //! answer is held to the oracle.
 //!
-//! Any bytes are a program: a map, a motion and an engine with options, then operations until the bytes end. The
-//! text of the program is in the message of a failure, so that it can be written as a test.
+//! Any bytes are a program: a map, a motion and an engine with options, then operations until the bytes
+//! end. The text of the program is in the message of a failure, so that it can be written as a test.
 
 mod ask;
 mod known;
@@ -20,7 +20,7 @@ use crate::bytes::Bytes;
 /// The most operations of a program.
 const MOST: usize = 12;
 
-/// What an engine is asked, and what was asked of it so far.
+/// An engine on a map, and the operations so far.
 struct Run {
     setup: Setup,
     space: Space,

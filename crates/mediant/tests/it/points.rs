@@ -245,8 +245,8 @@ fn fields_from_points_follow_edits() {
     assert!(same > 100, "{same}");
 }
 
-/// A limit that is a path's own length lets it through, however near its ends are to each other: the rounding of
-/// its cost is then more than the 2⁻³¹ of itself by which a limit is longer.
+/// A limit that is a path's own length lets it through, however near its ends are to each other: the
+/// rounding of its cost is then more than the 2⁻³¹ of itself by which a limit is longer.
 #[test]
 fn a_limit_at_the_length_between_the_nearest_points_is_met() {
     let space = Map::from_rows(["...", "...", "..."]).expect("a map");

@@ -1,4 +1,4 @@
-//! What the published program may have done otherwise, measured: ties, long moves, jump points, and swamp.
+//! Other choices that the published program may have made: ties, long moves, jump points, and swamp.
 
 mod pages;
 

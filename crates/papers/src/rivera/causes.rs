@@ -1,7 +1,7 @@
 //! Why numbers differ from the published ones.
 //!
-//! Their figures come from records: those of the tables' own, or, where a name stands for a cause, those of an
-//! experiment of its own (`alternatives`). What no experiment measures is called a guess that nobody can
+//! Their figures come from records: those of the tables' own, or, where a name stands for a cause, those of
+//! an experiment of its own (`alternatives`). What no experiment measures is called a guess that nobody can
 //! check.
 
 use mediant_report::Record;

@@ -249,23 +249,14 @@ fn sentences(record: &Record) -> Vec<Claim> {
         )
         .of_times(true),
     ];
-    for (set, name) in SETS {
+    claims.extend(SETS.into_iter().map(|(set, name)| {
         let faster = |k: &u32| less(time(set, paper, hk, *k), time(set, paper, euclidean, *k));
         let measured = KS.iter().all(|k| faster(k).is_some());
         let largest = KS.into_iter().rfind(|k| faster(k) == Some(true)).map_or(0.0, f64::from);
-        claims.push(
-            Claim::new(
-                source,
-                format!("{name}: largest k at which canonical A* is faster with h_k"),
-                5.0,
-                measured.then_some(largest),
-            )
-            .within(0.0)
-            .written(0, "")
-            .of_times(true)
-            .because(causes::faster(record, Algorithm::Paper)),
-        );
-    }
+        let what = format!("{name}: largest k at which canonical A* is faster with h_k");
+        let claim = Claim::new(source, what, 5.0, measured.then_some(largest)).within(0.0).written(0, "");
+        claim.of_times(true).because(causes::faster(record, Algorithm::Paper))
+    }));
     claims
 }
 

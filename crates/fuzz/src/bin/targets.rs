@@ -1,6 +1,6 @@
 //! The program that libFuzzer drives: one for all targets, since each link takes a minute and its file
-//! hundreds of megabytes. The environment variable `MEDIANT_FUZZ` names the target, `MEDIANT_FUZZ_SEEDS` a folder
-//! to which it writes valid inputs before it begins.
+//! hundreds of megabytes. The environment variable `MEDIANT_FUZZ` names the target, `MEDIANT_FUZZ_SEEDS` a
+//! folder to which it writes valid inputs before it begins.
 #![no_main]
 
 use std::{path::PathBuf, sync::LazyLock};
