@@ -121,7 +121,8 @@ impl Run {
             "the edited map is another one".to_owned()
         });
         self.known = Known::new(map, &costs, self.motion.rules, self.k);
-        if let Some(path) = self.path.take() {
+        // A path without a segment has none that is not legal: its cost is 0 wherever it stands.
+        if let Some(path) = self.path.take().filter(|path| path.waypoints().len() > 1) {
             let (told, expected) = (self.space.cost(&path), self.known.measured(&path));
             let is_same = match (told, expected) {
                 (Some(told), Some(expected)) => (told - expected).abs() <= known::ROOM * expected,
