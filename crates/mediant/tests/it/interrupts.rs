@@ -50,7 +50,8 @@ fn check<T>(name: &str, work: impl Fn(&Limits) -> Result<T, Error>) {
         assert_eq!(error.code(), ErrorCode::Stopped, "{name}: {error}");
         assert!(error.to_string().starts_with("out of time while "), "{name}: {error}");
         let more = asked.load(Ordering::Relaxed) - last;
-        assert!(more <= threads + 1, "{name} asks {more} times more after question {last} of {all}");
+        // Each thread may be asking, and ask again so that the others know.
+        assert!(more <= 2 * threads, "{name} asks {more} times more after question {last} of {all}");
     }
     let limits = Limits::new().cancel(Arc::new(AtomicBool::new(true)));
     let cancelled = work(&limits).err().unwrap_or_else(|| panic!("{name} goes on"));

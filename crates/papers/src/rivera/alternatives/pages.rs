@@ -124,7 +124,7 @@ fn ties(record: &Record) -> Option<String> {
          instead of {:.1} (published {:.1}) and expands {} nodes instead of {}, which is {:.2} of those with \
          the Euclidean heuristic instead of {:.2} (published {:.2}). At 128 neighbors it expands {:.2} of the \
          nodes at 8 neighbors instead of {:.2} (published {:.2}). With the Euclidean heuristic, where f \
-         seldom ties, the expansions of both heaps differ by at most {:.2} %. Experiment `{ID}`.",
+         seldom ties, {}. Experiment `{ID}`.",
         problems(record, "bg512", "A*")?,
         swaps(record, "A*, f alone")?,
         swaps(record, "A*")?,
@@ -137,7 +137,10 @@ fn ties(record: &Record) -> Option<String> {
         over_8(record, "A*, f alone", 7, expanded)?,
         over_8(record, "A*", 7, expanded)?,
         published_over_8(algorithm, 7, Measure::Expanded)?,
-        100.0 * same
+        match 100.0 * same {
+            0.0 => "both heaps expand as many".to_owned(),
+            percent => format!("the expansions of both heaps differ by {percent:.2} % at most"),
+        }
     ))
 }
 
