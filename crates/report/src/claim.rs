@@ -157,8 +157,9 @@ impl Verdict {
 
 /// The number of claims of each [`Verdict`]: matched, within sampling, deviating, missing.
 #[must_use]
-pub fn verdicts<'c>(claims: impl IntoIterator<Item = &'c Claim> + Clone) -> [usize; 4] {
-    let count = |verdict| claims.clone().into_iter().filter(|claim| claim.verdict() == verdict).count();
+pub fn verdicts<'c>(claims: impl IntoIterator<Item = &'c Claim>) -> [usize; 4] {
+    let found: Vec<Verdict> = claims.into_iter().map(Claim::verdict).collect();
+    let count = |verdict| found.iter().filter(|&&found| found == verdict).count();
     [Verdict::Matched, Verdict::WithinSampling, Verdict::Deviates, Verdict::Missing].map(count)
 }
 
