@@ -8,7 +8,7 @@
 //! **The key decision: every answer is compared.** The reference, A\* or Anya, is prepared anew after each
 //! edit, on a map made from the cells alone; so whatever was repaired, loaded, shared, stopped or forgotten
 //! has to agree with what has no past. A soak fails at the first disagreement, at an operation that takes
-//! longer than a bound, and when [resident memory](memory) grows.
+//! longer than a bound, and when resident memory grows (`soak/memory.rs`).
 
 mod ask;
 mod kind;
