@@ -36,7 +36,7 @@ pub struct Options {
     /// Add what ran to the record, docs/proof/fuzzing.json
     #[arg(long)]
     record: bool,
-    /// Keep the smallest inputs that reach as many edges, in crates/fuzz/corpus
+    /// Keep some of the smallest inputs that reach something of their own, in crates/fuzz/corpus
     #[arg(long)]
     keep: bool,
     /// Watch memory by a sanitizer of Rust: address, leak
@@ -167,27 +167,33 @@ impl Fuzzer {
             .stdout(Stdio::null())
             .spawn()
             .map_err(io(&self.program))?;
-        let mut log = Log::default();
+        let (mut log, mut is_quiet) = (Log::default(), false);
         if let Some(lines) = child.stderr.take() {
             for line in BufReader::new(lines).lines().map_while(Result::ok) {
                 log.line(&line, begin.elapsed());
                 // libFuzzer says how it is at each power of two of executions, and at each new edge.
-                if log.is_quiet_for(quiet, begin.elapsed()) {
+                is_quiet = log.is_quiet_for(quiet, begin.elapsed());
+                if is_quiet {
                     let _ = child.kill();
                     break;
                 }
             }
         }
-        let _ = child.wait();
+        let status = child.wait().map_err(io(&self.program))?;
         let found: Vec<PathBuf> =
             files(&findings)?.into_iter().filter(|file| !before.contains(file)).collect();
+        // It ends otherwise than by its time only with an input that is wrong, whose file it writes.
+        if !is_quiet && !status.success() && found.is_empty() {
+            println!("{name}: {status}\n{}", log.tail());
+            return Err(Error::Step { command: self.program.display().to_string() });
+        }
         for file in &found {
             println!("{name}: wrong on {}\n{}", file.display(), log.tail());
         }
         Ok((log.turn(begin.elapsed(), found.len()), found))
     }
 
-    /// Puts the smallest inputs that reach as many edges into the corpus that is kept.
+    /// Puts some of the smallest inputs that reach something of their own into the corpus that is kept.
     fn keep(&self, name: &str) -> Result<(), Error> {
         let (kept, merged) =
             (root().join("crates/fuzz/corpus").join(name), self.folder.join("merged").join(name));

@@ -37,8 +37,9 @@ fn drawn(record: &Record) -> String {
     }
     let provenance = &record.provenance;
     let machine = provenance.machine.cpu.as_deref().unwrap_or("a processor without a name");
-    let source =
-        format!("*{}: {} Revision {}, on {machine}.*", record.title, provenance.drawn, provenance.revision);
+    let revision = provenance.revision.get(..12).unwrap_or(&provenance.revision);
+    let drawn = provenance.drawn.trim_end_matches('.');
+    let source = format!("*{}: {drawn}. Revision {revision}, on {machine}.*", record.title);
     format!("\n{}\n{}\n\n", table.markdown(), wrapped(&source, WIDTH).join("\n"))
 }
 

@@ -1,6 +1,6 @@
 //! The record of fuzzing, to which each turn is added.
 
-use std::{fmt, fs};
+use std::{cmp::Ordering, fmt, fs};
 
 use mediant_report::{Column, Machine, Provenance, Record, Row, number, revision, thousands};
 use mediant_sets::root;
@@ -44,17 +44,21 @@ impl fmt::Display for Turn {
 }
 
 impl Turn {
-    /// A turn of before, and this one. Without a new edge the silence of both counts together.
+    /// A turn of before, and this one. Where both reach the same edges their silence counts together; a turn that
+    /// reaches fewer, as one that begins anew elsewhere, never came to where the silence began.
     fn after(&self, row: Option<&Row>) -> Self {
         let of = |column: &str| row.and_then(|row| row.number(column)).unwrap_or(0.0);
-        let is_new = self.edges as f64 > of("edges");
         Self {
             executions: self.executions + of("executions") as u64,
             hours: self.hours + of("time"),
             edges: self.edges.max(of("edges") as u64),
             features: self.features.max(of("features") as u64),
             inputs: self.inputs,
-            quiet_minutes: self.quiet_minutes + if is_new { 0.0 } else { of("quiet") },
+            quiet_minutes: match self.edges.cmp(&(of("edges") as u64)) {
+                Ordering::Greater => self.quiet_minutes,
+                Ordering::Equal => self.quiet_minutes + of("quiet"),
+                Ordering::Less => of("quiet"),
+            },
             found: self.found + of("wrong") as u64,
         }
     }
@@ -114,7 +118,7 @@ fn added(known: Option<Record>, name: &str, turn: &Turn) -> Record {
             count("features", "", "edges, by how often they are passed"),
             count("inputs", "", "inputs that each reach something else"),
             count("quiet", "minutes", "time since the last new edge"),
-            count("wrong", "", "inputs that were treated wrongly, since mended"),
+            count("wrong", "", "inputs that were treated wrongly"),
         ],
         rows,
     }
@@ -144,8 +148,11 @@ mod tests {
             ["executions", "time", "quiet"].map(|of| number(&record, of)),
             [150.0, 1.0, 32.0].map(Some)
         );
+        // Fewer edges: it begins anew.
+        let record = added(Some(record), "map", &turn(0, 9, 500.0));
+        assert_eq!(["time", "edges", "quiet"].map(|of| number(&record, of)), [1.5, 10.0, 32.0].map(Some));
         let record = added(Some(record), "map", &turn(50, 11, 3.0));
-        assert_eq!(["edges", "quiet", "wrong"].map(|of| number(&record, of)), [11.0, 3.0, 3.0].map(Some));
+        assert_eq!(["edges", "quiet", "wrong"].map(|of| number(&record, of)), [11.0, 3.0, 4.0].map(Some));
         assert_eq!((record.rows.len(), record.provenance.instances), (2, 201));
         assert!(record.check().is_ok());
     }
