@@ -35,8 +35,8 @@ pub enum CostsError {
     },
     /// A cost that is no number from 10⁻¹²⁰ to 10¹²⁰.
     #[error(
-        "the cost of cell ({x}, {y}) is {cost}: it must be a positive number, from 1e-120 to 1e120; a cell that cannot be \
-         entered is marked as blocked, not by its cost"
+        "the cost of cell ({x}, {y}) is {cost}: it must be a positive number, from 1e-120 to 1e120; a cell \
+         that cannot be entered is marked as blocked, not by its cost"
     )]
     Cost {
         /// The column.

@@ -211,8 +211,8 @@ fn what_does_not_go_with_costs_is_said() {
     check(
         &format!("reach {map} --from 0,0 --costs {wrong}"),
         &format!(
-            "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number, from 1e-120 to 1e120; a cell that cannot be entered \
-             is marked as blocked, not by its cost: in a raster it has no data (NaN in NPY, or \
+            "{wrong}: the cost of cell (3, 1) is -4: it must be a positive number, from 1e-120 to 1e120; a cell that \
+             cannot be entered is marked as blocked, not by its cost: in a raster it has no data (NaN in NPY, or \
              --no-data VALUE); for heights there is --elevation"
         ),
     );

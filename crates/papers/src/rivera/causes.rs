@@ -150,7 +150,8 @@ pub(super) const SLOWER: &str =
     "At 4 and 8 neighbors the times of an expansion differ little here, and the expansions decide.";
 
 /// Why A* is not as fast beside Theta*.
-pub(super) const THETA_TIME: &str = "A guess that nobody can check: Theta* asks for fewer lines of sight here, none for a neighbor that is as \
+pub(super) const THETA_TIME: &str = "A guess that nobody can check: Theta* asks for fewer lines of sight here, \
+    none for a neighbor that is as \
      cheap already, nor for one that was found hidden. A program that asks for one for each neighbor that is \
      not closed takes longer for the same paths.";
 
