@@ -44,8 +44,8 @@ impl fmt::Display for Turn {
 }
 
 impl Turn {
-    /// A turn of before, and this one. Where both reach the same edges their silence counts together; a turn that
-    /// reaches fewer, as one that begins anew elsewhere, never came to where the silence began.
+    /// A turn of before, and this one. Where both reach the same edges their silence counts together; a
+    /// turn that reaches fewer, as one that begins anew elsewhere, never came to where the silence began.
     fn after(&self, row: Option<&Row>) -> Self {
         let of = |column: &str| row.and_then(|row| row.number(column)).unwrap_or(0.0);
         Self {
