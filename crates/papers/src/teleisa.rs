@@ -126,7 +126,7 @@ fn measure(context: &Context<'_>) -> Result<Findings, Error> {
     Ok(Findings { columns, rows, maps: maps.len(), instances, drawn, seeded: true })
 }
 
-/// How many instances are drawn of a scenario.
+/// The number of instances that are drawn of a scenario.
 fn problems_of(context: &Context<'_>) -> usize {
     context.quick_or(20, DRAWN)
 }

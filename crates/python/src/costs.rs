@@ -94,9 +94,9 @@ pub(crate) fn raised_for_costs(error: Error) -> PyErr {
     let wrong = |text: &str| exception("MapError", &format!("costs: {text}"), error.code().name());
     match error {
         Error::Costs(CostsError::Cost { x, y, cost }) => wrong(&format!(
-            "the cost of cell ({y}, {x}) is {}: it must be a positive number, from 1e-120 to 1e120; a wall \
-             has no cost: it is a blocked cell of Grid(array, costs=…) and Grid.edit_cells, and for Grid.from_costs one that is \
-             masked or nodata=",
+            "the cost of cell ({y}, {x}) is {}: it must be a positive number, from 1e-120 to 1e120; \
+             a wall has no cost: it is a blocked cell of Grid(array, costs=…) and Grid.edit_cells, and for \
+             Grid.from_costs one that is masked or nodata=",
             if cost.is_nan() { "nan".to_owned() } else { cost.to_string() }
         )),
         Error::Costs(error @ CostsError::Range { .. }) => wrong(&error.to_string()),

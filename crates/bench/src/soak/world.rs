@@ -15,7 +15,7 @@ use mediant_oracle::{Rng, adversarial, caves, maze, noise, rooms};
 
 use super::{SoakError, kind::Kind, timer::Timer};
 
-/// How the lengths of an engine's paths relate to those of the reference.
+/// The relation of an engine's paths to those of the reference, by length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Relation {
     /// They are equal.
