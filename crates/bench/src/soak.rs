@@ -8,7 +8,7 @@
 //! **The key decision: every answer is compared.** The reference, A\* or Anya, is prepared anew after each
 //! edit, on a map made from the cells alone; so whatever was repaired, loaded, shared, stopped or forgotten
 //! has to agree with what has no past. A soak fails at the first disagreement, at an operation that takes
-//! longer than a bound, and when resident memory grows (`soak/memory.rs`).
+//! longer than a bound, and when allocated memory grows (`soak/memory.rs`).
 
 mod ask;
 mod kind;
@@ -33,6 +33,8 @@ use mediant_sets::{cache, root};
 use ask::Asker;
 use kind::Kind;
 use latency::Log;
+pub use memory::COUNTED;
+use memory::Memory;
 use timer::Timer;
 use world::World;
 
@@ -78,7 +80,7 @@ pub enum SoakError {
     #[error("{0}")]
     Wrong(String),
     /// Memory that grows.
-    #[error("resident memory grows: {0}")]
+    #[error("allocated memory grows: {0}")]
     Memory(String),
     /// An engine that refuses what it has to do.
     #[error(transparent)]
@@ -121,8 +123,15 @@ struct Soak {
     log: Log,
     rounds: u64,
     edits: u64,
-    /// Resident memory after each round, in bytes.
-    memory: Vec<u64>,
+    /// After each round.
+    memory: Vec<Memory>,
+}
+
+impl Soak {
+    /// The medians of memory by quarter of the rounds, in bytes; `None` where it is not told.
+    fn quarters(&self, of: impl Fn(&Memory) -> Option<u64>) -> Option<[f64; 4]> {
+        memory::quarters(&self.memory.iter().filter_map(of).collect::<Vec<u64>>())
+    }
 }
 
 /// Soaks, and prints what was measured.
@@ -152,11 +161,10 @@ pub fn run_in(
     let soak = soak?;
     removed?;
     record::print(&soak, out)?;
-    match memory::quarters(&soak.memory) {
-        Some(quarters) if !memory::is_flat(&quarters) => {
-            return Err(SoakError::Memory(record::megabytes(&quarters)));
-        }
-        _ => {}
+    if let Some(quarters) = soak.quarters(|memory| Some(memory.allocated))
+        && !memory::is_flat(&quarters)
+    {
+        return Err(SoakError::Memory(record::by_quarter(&quarters)));
     }
     if options.record {
         record::write(root, options, &soak)?;
@@ -167,12 +175,13 @@ pub fn run_in(
 /// Rounds until the time is over, four at least.
 fn soak(options: &Options, folder: &Path, files: &[PathBuf]) -> Result<Soak, SoakError> {
     let begin = Instant::now();
-    let mut soak = Soak::default();
+    // Its own samples shall not count as growth.
+    let mut soak = Soak { memory: Vec::with_capacity(1 << 16), ..Soak::default() };
     while soak.rounds < 4 || begin.elapsed().as_secs_f64() < options.minutes * 60.0 {
         round(options, (folder, files), &mut soak)?;
         soak.rounds += 1;
         std::mem::forget(vec![1_u8; options.leak_kibibytes << 10]);
-        soak.memory.extend(memory::resident());
+        soak.memory.push(Memory::now());
     }
     Ok(soak)
 }

@@ -4,7 +4,10 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use mediant_bench::soak::{Options, run};
+use mediant_bench::soak::{COUNTED, Options, run};
+
+#[global_allocator]
+static ALLOCATOR: &stats_alloc::StatsAlloc<std::alloc::System> = COUNTED;
 
 /// Run all engines in one process for a long time, on maps that change, and compare them
 #[derive(Parser)]

@@ -4,7 +4,7 @@ use std::{fs, io, path::Path};
 
 use mediant_report::{Column, Machine, Provenance, Record, Row, revision};
 
-use super::{Kind, Options, Soak, SoakError, latency::Latencies, memory};
+use super::{Kind, Options, Soak, SoakError, latency::Latencies};
 
 const QUARTERS: [&str; 4] = ["quarter 1", "quarter 2", "quarter 3", "quarter 4"];
 
@@ -19,9 +19,14 @@ fn values(latencies: &Latencies) -> [(&'static str, Option<f64>); 4] {
 }
 
 /// Medians of memory, as text.
-pub(super) fn megabytes(quarters: &[f64; 4]) -> String {
-    let texts = quarters.map(|bytes| format!("{:.0}", bytes / 1e6));
+pub(super) fn by_quarter(quarters: &[f64; 4]) -> String {
+    let texts = quarters.map(|bytes| format!("{:.3}", bytes / 1e6));
     format!("{} MB by quarter", texts.join(", "))
+}
+
+/// The allocated and the resident memory by quarter of the rounds.
+fn memory(soak: &Soak) -> [Option<[f64; 4]>; 2] {
+    [soak.quarters(|memory| Some(memory.allocated)), soak.quarters(|memory| memory.resident)]
 }
 
 /// Prints a table.
@@ -42,9 +47,11 @@ pub(super) fn print(soak: &Soak, out: &mut dyn io::Write) -> Result<(), SoakErro
         }
         writeln!(out)?;
     }
-    match memory::quarters(&soak.memory) {
-        Some(quarters) => writeln!(out, "resident memory after a round: {}", megabytes(&quarters))?,
-        None => writeln!(out, "resident memory is not told here")?,
+    let [allocated, resident] = memory(soak);
+    for (quarters, what) in [(allocated, "allocated"), (resident, "resident")] {
+        let quarters =
+            quarters.map_or_else(|| "is not told here".to_owned(), |quarters| by_quarter(&quarters));
+        writeln!(out, "{what} memory after a round: {quarters}")?;
     }
     Ok(())
 }
@@ -59,17 +66,18 @@ fn record(root: &Path, options: &Options, soak: &Soak) -> Record {
             values(latencies).into_iter().fold(row, |row, (column, value)| row.with(column, value))
         })
         .collect();
-    if let Some(quarters) = memory::quarters(&soak.memory) {
-        let names = QUARTERS.into_iter().zip(quarters);
-        rows.extend(names.map(|(name, bytes)| Row::new().key("what", name).with("memory", bytes / 1e6)));
-    }
+    let [allocated, resident] = memory(soak);
+    rows.extend(QUARTERS.into_iter().enumerate().map(|(number, name)| {
+        let of = |quarters: Option<[f64; 4]>| quarters.map(|quarters| quarters[number] / 1e6);
+        Row::new().key("what", name).with("allocated", of(allocated)).with("resident", of(resident))
+    }));
     let drawn = format!(
         "cargo xtask soak --minutes {} --seed {} --threads {} --side {}: {} rounds and {} edits",
         options.minutes, options.seed, options.threads, options.side, soak.rounds, soak.edits
     );
     Record {
         id: "soak".to_owned(),
-        title: "All engines in one process: latencies by operation, and resident memory".to_owned(),
+        title: "All engines in one process: latencies by operation, and memory".to_owned(),
         provenance: Provenance {
             revision: revision(root),
             machine: Machine::here(),
@@ -89,7 +97,8 @@ fn record(root: &Path, options: &Options, soak: &Soak) -> Record {
             Column::time("p99", "ms", "latency that 99 % of the operations do not exceed"),
             Column::time("p99.9", "ms", "latency that 99.9 % of the operations do not exceed"),
             Column::time("max", "ms", "the longest latency"),
-            Column::time("memory", "MB", "median of the resident memory after each round of the quarter"),
+            Column::time("allocated", "MB", "median of the allocated memory after each round of the quarter"),
+            Column::time("resident", "MB", "median of the resident memory after each round of the quarter"),
         ],
         rows,
     }
