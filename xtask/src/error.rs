@@ -55,6 +55,12 @@ pub enum Error {
         /// Their files.
         files: Vec<PathBuf>,
     },
+    /// Mutants that no test notices, without a reason; each was printed.
+    #[error("mutants that survive, and are not explained: {count}")]
+    Survivors {
+        /// Their number.
+        count: usize,
+    },
     /// A command that failed, or could not be started.
     #[error("`{command}` failed")]
     Step {

@@ -5,7 +5,7 @@ use std::{ffi::OsString, process::ExitCode};
 
 use clap::{Args, Parser, Subcommand};
 use xtask::{
-    c, ci, describe, download, fuzz, gppc, package,
+    c, ci, describe, download, fuzz, gppc, mutants, package,
     program::{COMPARE, PROVE, REPRODUCE, SOAK, VERIFY},
     tidy, web,
 };
@@ -46,6 +46,8 @@ enum Task {
     Web(web::Options),
     /// Fuzz what reads bytes and answers questions, by libFuzzer, and add up what ran
     Fuzz(fuzz::Options),
+    /// Change the code in small ways, and see whether the tests notice
+    Mutants(mutants::Options),
     /// Install the library for C: libmediant, mediant.h and mediant.hpp, for pkg-config and CMake
     C(c::Options),
 }
@@ -74,6 +76,7 @@ fn main() -> ExitCode {
         Task::Gppc(options) => gppc::run(&options).map(done),
         Task::Web(options) => web::run(options).map(done),
         Task::Fuzz(options) => fuzz::run(&options).map(done),
+        Task::Mutants(options) => mutants::run(&options).map(done),
         Task::C(options) => c::run(&options).map(done),
     };
     outcome.unwrap_or_else(|error| {

@@ -1,0 +1,126 @@
+//! The tests: how long each takes, and to which places with mutants it comes.
+
+use std::{
+    collections::BTreeSet,
+    fs,
+    io::{self, BufRead, BufReader},
+    path::{Path, PathBuf},
+    process::{Child, Command, ExitStatus, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::tree::Program;
+use crate::Error;
+
+/// The most bytes of addresses that a test may have: a mutant may ask for more and more.
+const MEMORY: &str = "6000000";
+
+/// A test.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Test {
+    /// The number of its program.
+    pub(super) program: usize,
+    pub(super) name: String,
+    pub(super) seconds: f64,
+    /// The places to which it comes, each by its first mutant.
+    pub(super) places: BTreeSet<u32>,
+}
+
+/// How a run of tests ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    Passed,
+    /// In this test.
+    Failed(String),
+    /// Not within its time: in this test.
+    Late(String),
+}
+
+/// Runs tests of a program, one after the other, until one fails.
+pub(super) fn run(
+    program: &Program,
+    names: &[&str],
+    (variable, value): (&str, &str),
+    longest: Duration,
+) -> Result<End, Error> {
+    // A shell, for the limit.
+    let mut command = Command::new("sh");
+    command.arg("-c").arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")).arg(&program.path);
+    command.args(["-Zunstable-options", "--fail-fast", "--test-threads=1", "--exact"]).args(names);
+    command.env("RUSTC_BOOTSTRAP", "1").env("RUST_BACKTRACE", "0").env("INSTA_UPDATE", "no");
+    command.env("CARGO_MANIFEST_DIR", &program.folder).env(variable, value).current_dir(&program.folder);
+    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+    let mut child = command.spawn().map_err(Error::at(&program.path))?;
+    let out = child.stdout.take().map(BufReader::new);
+    // The program names a test before it runs it.
+    let last = thread::spawn(move || {
+        let lines = out.into_iter().flat_map(|out| out.split(b'\n')).map_while(Result::ok);
+        let named = lines.filter_map(|line| {
+            let line = String::from_utf8_lossy(&line).into_owned();
+            line.strip_prefix("test ")?.split_once(" ... ").map(|(name, _)| name.to_owned())
+        });
+        named.last().unwrap_or_default()
+    });
+    let status = status(&mut child, longest).map_err(Error::at(&program.path))?;
+    let last = last.join().unwrap_or_default();
+    Ok(match status {
+        Some(status) if status.success() => End::Passed,
+        Some(_) => End::Failed(last),
+        None => End::Late(last),
+    })
+}
+
+/// The status of a process that ends in time; another one is killed.
+fn status(child: &mut Child, longest: Duration) -> io::Result<Option<ExitStatus>> {
+    let (begin, mut pause) = (Instant::now(), Duration::from_millis(1));
+    while begin.elapsed() <= longest {
+        if let Some(status) = child.try_wait()? {
+            return Ok(Some(status));
+        }
+        thread::sleep(pause);
+        pause = (2 * pause).min(Duration::from_millis(20));
+    }
+    child.kill()?;
+    child.wait()?;
+    Ok(None)
+}
+
+/// The names of a program's tests.
+fn names(program: &Program) -> Result<Vec<String>, Error> {
+    let listed = Command::new(&program.path).args(["--list", "--format", "terse"]).output();
+    let text = listed.map_err(Error::at(&program.path))?.stdout;
+    let text = String::from_utf8_lossy(&text);
+    Ok(text.lines().filter_map(|line| line.strip_suffix(": test")).map(str::to_owned).collect())
+}
+
+/// All tests, each run once without a mutant; those that fail so are left out, and are told.
+pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Result<Vec<Test>, Error> {
+    let mut all = Vec::new();
+    for (number, program) in programs.iter().enumerate() {
+        all.extend(names(program)?.into_iter().map(|name| (number, name)));
+    }
+    let tests = super::in_parallel(threads, &all, |worker, (number, name)| {
+        let reached = folder.join(format!("reached-{worker}"));
+        let _ = fs::remove_file(&reached);
+        let begin = Instant::now();
+        let value = reached.to_string_lossy().into_owned();
+        let end = run(&programs[*number], &[name], ("MUTANT_REACH", &value), Duration::from_secs(600))?;
+        let seconds = begin.elapsed().as_secs_f64();
+        if end != End::Passed {
+            println!("left out, since it fails without a mutant: {} {name}", programs[*number].name);
+            return Ok(None);
+        }
+        let places = fs::read_to_string(&reached).unwrap_or_default();
+        let places = places.lines().filter_map(|line| line.parse().ok()).collect();
+        Ok(Some(Test { program: *number, name: name.clone(), seconds, places }))
+    })?;
+    Ok(tests.into_iter().flatten().collect())
+}
+
+/// The file of known tests, for programs that are the same.
+pub(super) fn file(folder: &Path, digest: &str) -> PathBuf {
+    folder.join(format!("tests-{digest}.json"))
+}
