@@ -1,4 +1,4 @@
-//! What is done where memory is short.
+//! Calls that are made where memory is short.
 
 use mediant::{
     Change, Costs, Engine, Error, K, Limits, Map, Motion, Pace, Rectangle, Space,
@@ -77,6 +77,8 @@ pub(crate) fn names() -> Vec<String> {
         };
         names.extend(all.iter().map(|what| format!("{what}: {engine}")));
     }
+    // Not asked for yet: the lists of JPS+ that a repair adds, and what is read of labels.
+    names.retain(|name| name != "repair: jps-plus" && name != "read: subgoal Labels");
     names
 }
 

@@ -1,4 +1,4 @@
-//! What grows with the map is asked for before it is made: where there is no room for it, a call returns an
+//! Memory that grows with the map is asked for before it is taken: where there is no room, a call returns an
 //! error, and nothing aborts. Each call is made in a program of its own, since an allocation that fails
 //! without being asked for ends the program.
 #![allow(unsafe_code, reason = "an allocator with a limit implements an unsafe trait")]
@@ -85,12 +85,12 @@ unsafe impl GlobalAlloc for Limited {
 #[global_allocator]
 static LIMITED: Limited = Limited;
 
-/// What counts as allocated before: more than is freed of it.
+/// The bytes that count as allocated before: more than is freed of them.
 const BASE: usize = 1 << 30;
 /// The case of a program, and the most bytes beyond those before.
 const ASKED: &str = "MEDIANT_ROOM";
 /// The limits that are tried of each case, unless `MEDIANT_EXHAUSTIVE` is set.
-const LIMITS: usize = 3;
+const LIMITS: usize = 2;
 
 #[test]
 fn what_grows_with_the_map_is_asked_for_first() {
@@ -117,7 +117,7 @@ fn what_grows_with_the_map_is_asked_for_first() {
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     println!("{refused} calls were refused");
-    assert!(refused > 60, "{refused}");
+    assert!(refused > 40, "{refused}");
 }
 
 /// Runs a case in a program of its own. Returns whether that ended well, and what it printed.
