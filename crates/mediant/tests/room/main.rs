@@ -2,6 +2,7 @@
 //! error, and nothing aborts. Each call is made in a program of its own, since an allocation that fails
 //! without being asked for ends the program.
 #![allow(unsafe_code, reason = "an allocator with a limit implements an unsafe trait")]
+#![allow(clippy::print_stdout, reason = "the program of a case tells by it how that ended")]
 
 mod cases;
 
