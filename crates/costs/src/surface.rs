@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{Grid, Interrupt, MapId, Versioned};
+use mediant_grid::{Grid, Interrupt, MapId, Versioned, room_for};
 
 use crate::{
     error::CostsError,
@@ -204,6 +204,7 @@ impl CostSurface {
         interrupt: &Interrupt,
         weight: impl Fn(u32, u32) -> Option<u32>,
     ) -> Result<Self, CostsError> {
+        room_for::<u32>(layout.len(), STAGE)?;
         let mut weights = vec![0; layout.len()];
         for y in 0..layout.height() {
             interrupt.check(STAGE)?;
@@ -288,7 +289,7 @@ impl CostSurface {
     /// [`CostsError::Outside`], [`CostsError::Cost`], [`CostsError::Range`].
     pub fn edit(&self, cells: impl IntoIterator<Item = (u32, u32, Option<f64>)>) -> Result<Self, CostsError> {
         let cells: Vec<_> = cells.into_iter().collect();
-        let mut edit = self.weights.edit();
+        let mut edit = self.weights.edit_if_room(STAGE)?;
         let mut id = self.id;
         for &(x, y, cost) in &cells {
             if x >= self.width() || y >= self.height() {

@@ -64,10 +64,13 @@ impl fmt::Debug for BitMatrix {
 impl BitMatrix {
     /// A matrix whose bits, frame included, all have this value.
     fn filled(width: u32, height: u32, value: bool) -> Self {
-        let words_per_row = width / 64 + 1;
-        let words = (height as usize + 2) * words_per_row as usize + 2;
-        let word = if value { !0 } else { 0 };
-        Self { words: vec![word; words].into(), width, height, words_per_row }
+        let (words, word) = (Self::words_of(width, height), if value { !0 } else { 0 });
+        Self { words: vec![word; words].into(), width, height, words_per_row: width / 64 + 1 }
+    }
+
+    /// The number of words of a matrix with these sides.
+    const fn words_of(width: u32, height: u32) -> usize {
+        (height as usize + 2) * (width as usize / 64 + 1) + 2
     }
 
     /// The number of columns.

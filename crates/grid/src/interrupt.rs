@@ -1,6 +1,7 @@
 //! One way to stop what takes long.
 
 use std::{
+    alloc::{Layout, handle_alloc_error},
     fmt,
     sync::{
         Arc,
@@ -16,6 +17,9 @@ use std::{
 /// some hundred thousand cells or a few thousand searched nodes apart. Once it hears 'stop', it gives up what
 /// it has made and returns [`Interrupted`]; nothing goes on on other threads. Unused, an interrupt costs a
 /// test of two pointers a row.
+///
+/// **Memory** that grows with the map is asked for before it is taken. Where there is no room for it, the work
+/// ends as if it were stopped, by [`StoppedBy::Memory`].
 ///
 /// **Progress** goes the other way along with it: some work tells its [listener](Self::progress), if there is
 /// one, how far it is.
@@ -41,7 +45,7 @@ pub struct Interrupt {
     listener: Option<Arc<dyn Fn(usize, usize) + Send + Sync>>,
 }
 
-/// The flag or the deadline.
+/// The flag, the deadline, or a lack of memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StoppedBy {
@@ -49,6 +53,11 @@ pub enum StoppedBy {
     Cancelled,
     /// The deadline.
     Deadline,
+    /// There is no room for what the work would make next. Nothing of it was allocated.
+    Memory {
+        /// The bytes that it would take.
+        bytes: u64,
+    },
 }
 
 /// Work that was stopped before it was done.
@@ -56,6 +65,7 @@ pub enum StoppedBy {
 #[error("{} while {during}", match by {
     StoppedBy::Cancelled => "cancelled",
     StoppedBy::Deadline => "out of time",
+    StoppedBy::Memory { .. } => "no room for what is made",
 })]
 pub struct Interrupted {
     /// The cause.
@@ -183,6 +193,10 @@ impl fmt::Debug for Interrupt {
 pub fn uninterrupted<T>(work: impl FnOnce(&Interrupt) -> Result<T, Interrupted>) -> T {
     match work(&Interrupt::NEVER) {
         Ok(done) => done,
-        Err(Interrupted { .. }) => unreachable!("nothing stops this work"),
+        // As always in Rust where there is no error to return.
+        Err(Interrupted { by: StoppedBy::Memory { bytes }, .. }) => {
+            handle_alloc_error(Layout::array::<u8>(bytes as usize).unwrap_or(Layout::new::<u8>()))
+        }
+        Err(Interrupted { .. }) => unreachable!("nothing else stops this work"),
     }
 }

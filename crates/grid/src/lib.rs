@@ -66,6 +66,7 @@ mod points;
 #[cfg(doctest)]
 mod readme;
 mod rectangle;
+mod room;
 mod rules;
 #[cfg(feature = "serde")]
 mod serialized;
@@ -104,6 +105,8 @@ pub use per_motion::{PerMotion, cost_table};
 pub use placement::{Centers, Corners, Placement, SweptCells};
 pub use point::{Point, PointCoordinate};
 pub use rectangle::Rectangle;
+#[doc(hidden)]
+pub use room::{has_room, room_for, room_in};
 pub use rules::{CornerRule, DiagonalGap, PlacementKind, Rules};
 #[doc(hidden)]
 pub use transpose::transpose;

@@ -7,6 +7,8 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError},
 };
 
+use crate::{interrupt::Interrupted, room::room_for};
+
 /// An array of words that never changes, and of which an [`edit`](Self::edit) makes the next version by work
 /// that follows the edit.
 ///
@@ -80,6 +82,20 @@ impl<W: Clone + PartialEq> Versioned<W> {
         let line = self.line.take().unwrap_or_default();
         let words = std::mem::take(&mut self.words);
         VersionEdit { words, changed: Vec::new(), all: false, from: self.number, line }
+    }
+}
+
+impl<W: Clone + PartialEq> Versioned<W> {
+    /// Begins an edit, unless there is no room for a copy of the words where one must be made.
+    ///
+    /// # Errors
+    /// [`Interrupted`] then.
+    pub fn edit_if_room(&self, during: &'static str) -> Result<VersionEdit<W>, Interrupted> {
+        let has_spare = self.line.get().is_some_and(|line| line.lock().spare.is_some());
+        if !has_spare {
+            room_for::<W>(self.words.len(), during)?;
+        }
+        Ok(self.edit())
     }
 }
 

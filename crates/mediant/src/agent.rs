@@ -39,7 +39,8 @@ impl Map {
         motion.check_k()?;
         self.check_sides("clearance")?;
         let fit = Fit::exact(motion.rules, motion.k);
-        Ok(self.clearance(fit, Outside::Blocked).for_disc(radius)?.into())
+        let clearance = self.within(crate::limits::Limits::new()).clearance(fit, Outside::Blocked)?;
+        Ok(clearance.for_disc(radius)?.into())
     }
 
     /// The map of a disc, as [`for_disc`](Self::for_disc) has it, together with this one, so that edits of

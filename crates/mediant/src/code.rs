@@ -1,5 +1,7 @@
 //! Stable names for the kinds of mistakes.
 
+use std::io;
+
 #[cfg(feature = "walking")]
 use mediant_costs::WalkingError;
 #[cfg(feature = "costs")]
@@ -309,8 +311,11 @@ const fn of_hierarchy(error: &HierarchyError) -> ErrorCode {
     }
 }
 
-const fn of_read(error: &ReadError) -> ErrorCode {
+fn of_read(error: &ReadError) -> ErrorCode {
     match error {
+        ReadError::Unreadable { source, .. } if source.kind() == io::ErrorKind::OutOfMemory => {
+            ErrorCode::Memory
+        }
         ReadError::Missing { .. } => ErrorCode::FileMissing,
         ReadError::Map { .. }
         | ReadError::Raster { .. }

@@ -115,7 +115,7 @@ impl Costs {
         let columns = map.width() as usize;
         let expected = u64::from(map.width()) * u64::from(map.height());
         memory_check::check("the costs", expected.saturating_mul(BYTES))?;
-        let costs: Vec<f64> = costs.into_iter().map(Into::into).collect();
+        let costs = memory_check::collected("the costs", costs.into_iter().map(Into::into))?;
         if costs.len() as u64 != expected {
             return Err(CostsError::Count { found: costs.len(), expected }.into());
         }

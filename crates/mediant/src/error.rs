@@ -10,7 +10,9 @@ use mediant_costs::WalkingError;
 #[cfg(feature = "costs")]
 use mediant_costs::{CostsError, LandmarksError};
 use mediant_formats::{IndexError, ReadError, RowsError, TileError, TilesError, WriteError};
-use mediant_grid::{GridError, Interrupted, Mismatch, Rectangle, SizeError, Vertex, names::UnknownName};
+use mediant_grid::{
+    GridError, Interrupted, Mismatch, Rectangle, SizeError, StoppedBy, Vertex, names::UnknownName,
+};
 use mediant_hierarchy::HierarchyError;
 use mediant_moves::KError;
 use mediant_search::{BrokenPath, JumpError, Limit, QueryError};
@@ -216,7 +218,7 @@ pub enum Error {
         .bytes.div_ceil(1_000_000)
     )]
     OutOfMemory {
-        /// `the planner` or `the index`, which needs it.
+        /// `the planner` or `the index`, say, which needs it.
         what: &'static str,
         /// How much it needs, in bytes.
         bytes: u64,
@@ -261,7 +263,10 @@ impl fmt::Debug for Error {
 
 impl From<Interrupted> for Error {
     fn from(Interrupted { by, during }: Interrupted) -> Self {
-        Self::Stopped { by: by.into(), during }
+        match by {
+            StoppedBy::Memory { bytes } => Self::OutOfMemory { what: "what is made of the map", bytes },
+            by => Self::Stopped { by: by.into(), during },
+        }
     }
 }
 

@@ -8,7 +8,11 @@ use mediant_formats::{
 use mediant_grid::{Grid, GridError, MapId, Rectangle, Vertex};
 use mediant_search::Limits;
 
-use crate::{error::Error, recent::Recent};
+use crate::{error::Error, memory_check, recent::Recent};
+
+/// The memory that an edit takes for each of its cells at most, in bytes, and how many need not be asked for.
+const BYTES_OF_AN_EDIT: u64 = 4;
+const FEW_CELLS: u64 = 1 << 14;
 
 /// A map: a rectangle of cells, each free or blocked. Cell (x, y) is the one in column x from the left and
 /// row y from the top, both from 0. Everything outside is blocked.
@@ -189,7 +193,7 @@ impl Map {
     /// [`Error::Grid`] for a number of cells that is no multiple of the width, or sides of 0 or longer than
     /// [`Grid::MAX_SIDE`].
     pub fn from_bits(width: u32, blocked: impl IntoIterator<Item = bool>) -> Result<Self, Error> {
-        let blocked: Vec<bool> = blocked.into_iter().collect();
+        let blocked = memory_check::collected("the cells", blocked)?;
         let columns = width.max(1) as usize;
         let (height, rest) = (blocked.len() / columns, blocked.len() % columns);
         if rest != 0 {
@@ -227,12 +231,16 @@ impl Map {
         Ok(self.after(|change| change.edit(at, blocked)))
     }
 
-    /// Checks that a rectangle does not lie outside the map as a whole.
+    /// Checks that a rectangle does not lie outside the map as a whole, and that there is room for the list of
+    /// what changes in it.
     pub(crate) fn check_edit(&self, at: Rectangle) -> Result<(), Error> {
-        if at.x < self.width() && at.y < self.height() {
-            return Ok(());
+        let size = self.id().size();
+        if at.x >= size.0 || at.y >= size.1 {
+            return Err(Error::Edit { at, size });
         }
-        Err(Error::Edit { at, size: self.id().size() })
+        let cells = u64::from(at.width.min(size.0 - at.x)) * u64::from(at.height.min(size.1 - at.y));
+        // Small edits are made within microseconds.
+        if cells < FEW_CELLS { Ok(()) } else { memory_check::check("the edit", cells * BYTES_OF_AN_EDIT) }
     }
 
     /// This map with other scattered cells: of each its column and row, and whether it is blocked. The last

@@ -7,6 +7,25 @@ pub(crate) fn check(what: &'static str, bytes: u64) -> Result<(), Error> {
     if has_room(bytes) { Ok(()) } else { Err(Error::OutOfMemory { what, bytes }) }
 }
 
+/// The items of an iterator in a list, as long as there is room for them.
+pub(crate) fn collected<T>(what: &'static str, items: impl IntoIterator<Item = T>) -> Result<Vec<T>, Error> {
+    let items = items.into_iter();
+    let mut list = Vec::new();
+    let refused = |count: usize| {
+        let bytes = count.saturating_mul(size_of::<T>()) as u64;
+        move |_| Error::OutOfMemory { what, bytes }
+    };
+    let count = items.size_hint().0;
+    list.try_reserve_exact(count).map_err(refused(count))?;
+    for item in items {
+        if list.len() == list.capacity() {
+            list.try_reserve(1).map_err(refused(list.len() + 1))?;
+        }
+        list.push(item);
+    }
+    Ok(list)
+}
+
 /// [`check`] for numbers of cells.
 #[cfg(feature = "costs")]
 pub(crate) fn check_cells(size: (u32, u32), each: u64) -> Result<(), Error> {
@@ -15,7 +34,7 @@ pub(crate) fn check_cells(size: (u32, u32), each: u64) -> Result<(), Error> {
 }
 
 fn has_room(bytes: u64) -> bool {
-    usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
+    usize::try_from(bytes).is_ok_and(mediant_grid::has_room)
 }
 
 #[cfg(all(test, feature = "costs"))]

@@ -11,7 +11,7 @@ use std::{
 use mediant_grid::Point;
 use mediant_search::{Answer, Path, Query, QueryError};
 
-use crate::{error::Error, index::Index, planner::Planner};
+use crate::{error::Error, index::Index, memory_check, planner::Planner};
 
 /// Planners on one index that any number of threads share: each query takes one that is idle, or makes one,
 /// and gives it back. There are as many as threads that ever searched at the same time.
@@ -112,6 +112,24 @@ impl Planners {
     /// Gives a planner to `work`.
     pub fn with<T>(&self, work: impl FnOnce(&mut Planner) -> T) -> T {
         let mut planner = self.idle().pop().unwrap_or_else(|| self.index.planner());
+        let result = work(&mut planner);
+        self.idle().push(planner);
+        result
+    }
+
+    /// [`with`](Self::with), if there is room for a planner's scratch memory where one must be made.
+    pub(crate) fn try_with<T>(
+        &self,
+        work: impl FnOnce(&mut Planner) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let known = self.idle().pop();
+        let mut planner = match known {
+            Some(planner) => planner,
+            None => {
+                memory_check::check("the planner", self.index.scratch_bytes())?;
+                self.index.planner()
+            }
+        };
         let result = work(&mut planner);
         self.idle().push(planner);
         result

@@ -15,8 +15,8 @@ use mediant_subgoal::SubgoalPlacement;
 #[cfg(feature = "costs")]
 use crate::costs::Costs;
 use crate::{
-    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, motion::Motion, never::NEVER,
-    setup::Setup, setup_error::SetupError, shared_rules::Shared, surface::Surface, walk::Walk,
+    configured::ConfiguredEngine, engine::Engine, error::Error, map::Map, memory_check, motion::Motion,
+    never::NEVER, setup::Setup, setup_error::SetupError, shared_rules::Shared, surface::Surface, walk::Walk,
 };
 
 /// A map with rules of motion and a k: what can be searched. It never changes, and all threads can share it;
@@ -317,7 +317,8 @@ impl Space {
         }
         match (engine, self.placed(), motion.k.finite()) {
             (Engine::Dijkstra, ..) => {
-                Ok(self.field_from_of(&[start], f64::INFINITY, interrupt)?.iter().collect())
+                let field = self.field_from_of(&[start], f64::INFINITY, interrupt)?;
+                memory_check::collected("the distances", field.iter())
             }
             (Engine::Wavefront, Placed::Centers(layers), Some(k)) => {
                 moves(layers.graph(k)?, start, interrupt)
@@ -402,5 +403,5 @@ fn moves<P: Placement>(
     interrupt: &Interrupt,
 ) -> Result<Vec<(Vertex, f64)>, Error> {
     let moves = Wavefront::new(&**graph).distances_interruptible(start, interrupt)??;
-    Ok(moves.iter().map(|(at, moves)| (at, f64::from(moves))).collect())
+    memory_check::collected("the distances", moves.iter().map(|(at, moves)| (at, f64::from(moves))))
 }

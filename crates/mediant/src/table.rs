@@ -84,7 +84,8 @@ impl Index {
             let planners = Planners::new(self.clone());
             let row = |row: usize| {
                 stop.check()?;
-                let distances = planners.with(|planner| planner.distances_of(starts[row], &goals, interrupt));
+                let distances =
+                    planners.try_with(|planner| planner.distances_of(starts[row], &goals, interrupt));
                 distances.or_else(|error| {
                     // So that the others know it.
                     stop.check()?;
@@ -98,7 +99,7 @@ impl Index {
         let count = starts.len() * columns;
         let chunk = |chunk: usize| {
             let first = chunk * Planners::CHUNK;
-            planners.with(|planner| {
+            planners.try_with(|planner| {
                 let numbers = first..count.min(first + Planners::CHUNK);
                 let ends = |index: usize| PointEnds::new(starts[index / columns], goals[index % columns]);
                 numbers.map(|index| stop.length(planner, ends(index))).collect()

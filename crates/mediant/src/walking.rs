@@ -66,7 +66,7 @@ impl Map {
         cell_size: (f64, f64),
         pace: &Pace,
     ) -> Result<Walking, Error> {
-        Walking::new(self, &collected(elevations), None, (cell_size, pace), &NEVER)
+        Walking::new(self, &collected(elevations)?, None, (cell_size, pace), &NEVER)
     }
 
     /// [`walking`](Self::walking) with a friction for each cell: the time that a unit of length takes there
@@ -82,8 +82,8 @@ impl Map {
         cell_size: (f64, f64),
         pace: &Pace,
     ) -> Result<Walking, Error> {
-        let frictions = collected(frictions);
-        Walking::new(self, &collected(elevations), Some(&frictions), (cell_size, pace), &NEVER)
+        let frictions = collected(frictions)?;
+        Walking::new(self, &collected(elevations)?, Some(&frictions), (cell_size, pace), &NEVER)
     }
 }
 
@@ -129,8 +129,8 @@ impl Map {
     }
 }
 
-fn collected<N: Into<f64>>(numbers: impl IntoIterator<Item = N>) -> Vec<f64> {
-    numbers.into_iter().map(Into::into).collect()
+fn collected<N: Into<f64>>(numbers: impl IntoIterator<Item = N>) -> Result<Vec<f64>, Error> {
+    memory_check::collected("the elevations", numbers.into_iter().map(Into::into))
 }
 
 impl Walking {
@@ -288,7 +288,7 @@ impl Within<'_, Map> {
         cell_size: (f64, f64),
         pace: &Pace,
     ) -> Result<Walking, Error> {
-        Walking::new(self.of, &collected(elevations), None, (cell_size, pace), self.limits.interrupt())
+        Walking::new(self.of, &collected(elevations)?, None, (cell_size, pace), self.limits.interrupt())
     }
 }
 

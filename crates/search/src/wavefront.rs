@@ -23,7 +23,9 @@ mod quadrants;
 
 use std::ops::Deref;
 
-use mediant_grid::{GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex, VertexId, uninterrupted};
+use mediant_grid::{
+    GridGraph, Identity, Interrupt, Interrupted, Placement, Vertex, VertexId, room_for, uninterrupted,
+};
 use mediant_moves::{Cost, FiniteK};
 
 use self::quadrants::{Back, node_at, node_count, passes_gaps};
@@ -123,7 +125,9 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>>> Wavefront<G> {
         if let Err(error) = Ends::new(start, start).check(&self.graph) {
             return Ok(Err(error));
         }
-        let mut moves = vec![None; node_count(&*self.graph)];
+        let count = node_count(&*self.graph);
+        room_for::<Option<u32>>(count, "filling memory")?;
+        let mut moves = vec![None; count];
         if let Some(id) = self.graph.id(start) {
             self.begin_at(id, None, &mut ());
             let mut stops = Stops { interrupt, expansions: 0, stopped: Ok(()) };

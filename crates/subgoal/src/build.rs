@@ -1,6 +1,6 @@
 //! Building a graph: its edges, then its hierarchy.
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Vertex};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, Vertex, room_for};
 use mediant_moves::K;
 
 use crate::{
@@ -16,6 +16,9 @@ use crate::{
     subgoals::Subgoals,
 };
 use mediant_search::parts::Metric;
+
+/// The stage that an interrupted call names.
+const DURING: &str = "finding the edges of subgoals";
 
 impl<P: SubgoalPlacement> SubgoalGraph<P> {
     /// The subgoal graph of a free space for paths over N(k), or at any angle.
@@ -133,6 +136,7 @@ impl<P: SubgoalPlacement> Ground<P> {
         if count > MAX_ARCS as usize {
             return Err(SubgoalError::Arcs { count, most: MAX_ARCS });
         }
+        room_for::<UpwardArc>(count, "packing the graph of subgoals")?;
         let packed = pack(contracted);
         self.graph(space, hierarchy, packed).with_costs(space, interrupt)
     }
@@ -193,12 +197,13 @@ fn find_edges<P: EdgeFinder>(
     let chunks = in_chunks(context.subgoals.len(), P::Scratch::default, progress, |scratch, ids| {
         let mut edges = Vec::new();
         for from in ids {
-            interrupt.check("finding the edges of subgoals")?;
+            interrupt.check(DURING)?;
             P::edges_from(context, scratch, context.subgoals.vertex(from), EdgeKind::Graph, |to, _| {
                 edges.push((from, to));
             });
         }
         Ok(edges)
     })?;
+    room_for::<(u32, u32)>(chunks.iter().map(Vec::len).sum(), DURING)?;
     Ok(chunks.concat())
 }

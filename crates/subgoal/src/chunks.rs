@@ -8,10 +8,12 @@ use std::{
     },
 };
 
-use mediant_grid::Interrupted;
+use mediant_grid::{Interrupted, room_for};
 
 /// Subgoals that one thread handles at a time.
 const CHUNK: usize = 64;
+/// The memory that is asked for before a chunk: its results are many small pieces.
+const AHEAD: usize = 1 << 18;
 
 /// The results of `work` on each chunk of the numbers below `count`, in order; an error of one ends it.
 pub(crate) fn in_chunks<S, T: Send>(
@@ -22,6 +24,7 @@ pub(crate) fn in_chunks<S, T: Send>(
 ) -> Result<Vec<T>, Interrupted> {
     let done = AtomicUsize::new(0);
     let chunk = |scratch: &mut S, chunk: usize| {
+        room_for::<u8>(AHEAD, "preparing subgoals")?;
         let ids = chunk * CHUNK..count.min((chunk + 1) * CHUNK);
         let made = work(scratch, ids.start as u32..ids.end as u32)?;
         progress(done.fetch_add(ids.len(), Ordering::Relaxed) + ids.len());

@@ -7,7 +7,7 @@
 
 use std::num::NonZeroU32;
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, room_for, uninterrupted};
 use mediant_moves::K;
 
 use crate::{
@@ -38,7 +38,9 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let count = self.subgoals();
         // On 32 bits this cannot overflow: in memory an arc takes three times as much.
-        let mut bytes = Vec::with_capacity(Identity::BYTES + 4 * (3 + count + 2 * self.arcs()));
+        let length = Identity::BYTES + 4 * (3 + count + 2 * self.arcs());
+        room_for::<u8>(length, Interrupted::WRITING)?;
+        let mut bytes = Vec::with_capacity(length);
         bytes.extend(self.identity.to_bytes());
         let mut write = |number: u32| bytes.extend(number.to_le_bytes());
         [code(self.hierarchy()), count as u32, self.arcs() as u32].into_iter().for_each(&mut write);
@@ -158,6 +160,7 @@ fn read_offsets(
     count: u32,
     total: u32,
 ) -> Result<Box<[u32]>, SubgoalError> {
+    room_for::<u32>(count as usize + 1, DURING)?;
     let mut offsets = Vec::with_capacity(count as usize + 1);
     let mut sum = 0_u32;
     for of in numbers.take(count as usize) {
@@ -183,8 +186,8 @@ fn read_arcs(
 ) -> Result<Box<[UpwardArc]>, SubgoalError> {
     let mut arcs = Vec::new();
     // In memory an arc takes three times as much as in the bytes, which may be more than 32 bits can address.
-    arcs.try_reserve_exact(total as usize)
-        .map_err(|_| SubgoalError::Bytes("their arcs do not fit in memory"))?;
+    room_for::<UpwardArc>(total as usize, DURING)?;
+    arcs.reserve_exact(total as usize);
     while let Some((to, middle)) = numbers.next().zip(numbers.next()) {
         if to >= count || middle != NONE && middle >= count {
             return Err(SubgoalError::Bytes("an arc leads to no subgoal"));

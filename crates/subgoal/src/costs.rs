@@ -1,7 +1,7 @@
 //! The costs of the arcs, which follow from the subgoals; and whether arcs that were read make a hierarchy at
 //! all.
 
-use mediant_grid::{FreeSpace, Interrupt};
+use mediant_grid::{FreeSpace, Interrupt, room_for};
 use mediant_moves::Cost;
 
 use crate::{
@@ -64,6 +64,7 @@ impl<P: SubgoalPlacement> SubgoalGraph<P> {
     fn upward_order(&self, interrupt: &Interrupt) -> Result<Vec<u32>, SubgoalError> {
         let count = self.subgoals() as u32;
         // The number of arcs up to each subgoal whose lower ends are not in the order yet.
+        room_for::<[u32; 3]>(count as usize, DURING)?;
         let mut below = vec![0_u32; count as usize];
         for id in 0..count {
             interrupt.check_every(PIECE, id as usize, DURING)?;

@@ -1,6 +1,6 @@
 //! Which vertices are subgoals, and their numbers.
 
-use mediant_grid::{BitMatrix, Interrupt, Interrupted, Vertex};
+use mediant_grid::{BitMatrix, Interrupt, Interrupted, Vertex, room_for, room_in};
 
 /// The subgoals of a map, numbered row by row.
 #[derive(Clone, Debug)]
@@ -12,12 +12,16 @@ pub(crate) struct Subgoals {
     places: Box<[[u16; 2]]>,
 }
 
+/// The stage that an interrupted call names.
+const DURING: &str = "finding subgoals";
+
 impl Subgoals {
     /// The subgoals that are marked by a bit for each vertex, in a frame of zeros.
     pub(crate) fn new(marks: BitMatrix, interrupt: &Interrupt) -> Result<Self, Interrupted> {
         let mut places = Vec::new();
         for y in 0..marks.height() as i32 {
-            interrupt.check("finding subgoals")?;
+            interrupt.check(DURING)?;
+            room_in(&mut places, marks.width() as usize, DURING)?;
             let row = marks.row(y);
             for x in (0..marks.width() as i32).step_by(64) {
                 let mut bits = row.word(x);
@@ -29,6 +33,7 @@ impl Subgoals {
                 }
             }
         }
+        room_for::<u32>(marks.words().len(), DURING)?;
         let mut sum = 0;
         let counted = |word: &u64| {
             let before = sum;

@@ -97,8 +97,8 @@ impl CostField {
         let Some(near) = near(before, after, cells) else { return Ok(None) };
         let mut repair = Repair {
             graph: after,
-            costs: self.costs.edit(),
-            numbers: self.allocation.as_ref().map(|numbers| numbers.edit()),
+            costs: self.costs.edit_if_room(STAGE)?,
+            numbers: self.allocation.as_ref().map(|numbers| numbers.edit_if_room(STAGE)).transpose()?,
             limit: after.greatest_cost(self.limit),
             open: BinaryHeap::new(),
             looks: after.states() / FIRST_SHARE + AT_LEAST,

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use mediant_grid::{Interrupt, Interrupted, PlacementKind};
+use mediant_grid::{Interrupt, Interrupted, PlacementKind, room_for};
 
 use super::buckets::Buckets;
 #[cfg(not(target_family = "wasm"))]
@@ -126,6 +126,7 @@ impl<'s> Progress<'s> {
 fn unreached(graph: &CostGraph, interrupt: &Interrupt) -> Result<Vec<u64>, Interrupted> {
     let states = graph.states();
     let weights = graph.map().weights();
+    room_for::<u64>(states, "filling memory")?;
     let mut costs = Vec::with_capacity(states);
     for piece in weights.chunks(1 << 18) {
         interrupt.check("filling memory")?;
@@ -144,6 +145,7 @@ impl Search<'_> {
     /// Lowers the costs of all states to those of the cheapest paths.
     pub(crate) fn run(self, costs: Vec<u64>, moves: impl Scanning) -> Result<Labels, Interrupted> {
         let Self { limit, with_sources, interrupt, .. } = self;
+        room_for::<u32>(if with_sources { costs.len() } else { 0 }, "filling memory")?;
         let sources = with_sources.then(|| vec![u32::MAX; costs.len()]);
         let progress = Progress::of(&costs, self.size, interrupt);
         let mut labels = Labels { costs, sources, queue_bytes: 0 };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Identity, Interrupt, Interrupted};
+use mediant_grid::{Identity, Interrupt, Interrupted, room_for};
 
 use super::{Landmarks, error::LandmarksError, lines::Lines};
 use crate::{graph::CostGraph, scan::Visit};
@@ -30,7 +30,9 @@ impl Landmarks {
         interrupt: &Interrupt,
     ) -> Result<Vec<u8>, LandmarksError> {
         self.identity.check_equal("the landmarks", ("the graph", graph.identity()))?;
-        let mut bytes = Vec::with_capacity(Self::length(graph, self.count()));
+        let length = Self::length(graph, self.count());
+        room_for::<u8>(length, Interrupted::WRITING)?;
+        let mut bytes = Vec::with_capacity(length);
         bytes.extend(self.identity.to_bytes());
         bytes.extend([self.count() as u32, self.shift].into_iter().flat_map(u32::to_le_bytes));
         for (number, state) in states(graph).enumerate() {

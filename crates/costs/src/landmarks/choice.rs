@@ -1,6 +1,6 @@
 //! The places of landmarks.
 
-use mediant_grid::{Interrupt, Interrupted, Vertex};
+use mediant_grid::{Interrupt, Interrupted, Vertex, room_for};
 
 use crate::{graph::CostGraph, scan::Visit};
 
@@ -14,11 +14,15 @@ pub(super) struct Components {
 
 /// A state of no component, or of a small one.
 const NO_LABEL: u32 = u32::MAX;
+/// The stage that an interrupted call names.
+const DURING: &str = "finding the components";
 /// A component with fewer states has no landmark: a search there is short.
 const FEWEST: usize = 64;
 
 impl Components {
     pub(super) fn of(graph: &CostGraph, interrupt: &Interrupt) -> Result<Self, Interrupted> {
+        // The labels, and a list that doubles until it may hold all states.
+        room_for::<u32>(4 * graph.states(), DURING)?;
         let mut flood = Flood { graph, labels: vec![NO_LABEL; graph.states()], label: 0, found: Vec::new() };
         let mut first = Vec::new();
         let mut scanned = 0;
@@ -30,7 +34,7 @@ impl Components {
             flood.relax(0, state, 0);
             let mut next = 0;
             while let Some(&state) = flood.found.get(next) {
-                interrupt.check_every(1 << 14, scanned, "finding the components")?;
+                interrupt.check_every(1 << 14, scanned, DURING)?;
                 graph.scan((state as usize, 0), &mut flood);
                 (next, scanned) = (next + 1, scanned + 1);
             }

@@ -1,6 +1,6 @@
 //! The numbers of all states, so that those of one state share a cache line.
 
-use mediant_grid::{VersionEdit, Versioned};
+use mediant_grid::{Interrupted, VersionEdit, Versioned, room_for};
 
 use super::{NONE, error::LandmarksError};
 
@@ -69,18 +69,23 @@ pub(super) fn rounded(count: usize) -> usize {
     count.clamp(4, MOST).next_power_of_two()
 }
 
+/// The stage that an interrupted call names.
+const DURING: &str = "making room for landmarks";
+
 impl Lines {
     pub(super) fn new(states: usize, count: usize) -> Result<Self, LandmarksError> {
         if !(1..=MOST).contains(&count) {
             return Err(LandmarksError::Count { count });
         }
         let layout = Rows { states, count: rounded(count) };
+        room_for::<Line>(layout.lines(), DURING)?;
         Ok(Self { lines: vec![Line([NONE; MOST]); layout.lines()].into(), layout })
     }
 
     /// A copy for another number of states, as far as they have the same numbers.
-    pub(super) fn resized(&self, states: usize) -> Self {
+    pub(super) fn resized(&self, states: usize) -> Result<Self, Interrupted> {
         let layout = Rows { states, ..self.layout };
+        room_for::<Line>(self.lines.len().max(layout.lines()), DURING)?;
         let mut lines = self.lines.to_vec();
         lines.resize(layout.lines(), Line([NONE; MOST]));
         // Of states that are left out nothing stays in the last line.
@@ -88,12 +93,12 @@ impl Lines {
         if let Some(last) = lines.last_mut().filter(|_| rest > 0) {
             last.0[rest..].fill(NONE);
         }
-        Self { lines: lines.into(), layout }
+        Ok(Self { lines: lines.into(), layout })
     }
 
     /// Begins an edit, whose work follows what it changes.
-    pub(super) fn edit(&self) -> LinesEdit {
-        LinesEdit { lines: self.lines.edit(), layout: self.layout }
+    pub(super) fn edit(&self) -> Result<LinesEdit, Interrupted> {
+        Ok(LinesEdit { lines: self.lines.edit_if_room(DURING)?, layout: self.layout })
     }
 
     pub(super) const fn count(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt};
+use mediant_grid::{Identity, Interrupt, Interrupted};
 
 use super::{
     Landmarks, NONE,
@@ -62,14 +62,14 @@ impl Landmarks {
         changed.check_equal("the change", ("the graph", after.identity()))?;
         let mut lines = Arc::clone(&self.lines);
         if !before.scanner().gaps.is_same_as(&after.scanner().gaps) {
-            lines = Arc::new(with_gaps(&lines, before, after));
+            lines = Arc::new(with_gaps(&lines, before, after)?);
         }
         let most = lines.states().saturating_mul(lines.count()) / SLOWNESS;
         let Some(seeds) = lowered(before, after, cells, most / lines.count()) else {
             return Ok(None);
         };
         if !seeds.is_empty() {
-            let (graph, shift, lines_after) = (after.as_ref(), self.shift, lines.edit());
+            let (graph, shift, lines_after) = (after.as_ref(), self.shift, lines.edit()?);
             let mut lowering =
                 Lowering { graph, lines: lines_after, shift, slot: 0, open: BinaryHeap::new() };
             if !lowering.run(&seeds, (self.count(), most), interrupt)? {
@@ -83,9 +83,9 @@ impl Landmarks {
 
 /// The numbers for the gaps of another surface. A corner that became a gap has its number in both states. One
 /// that was a gap has that of the quadrant from which it still can be reached, or the lesser of both.
-fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Lines {
+fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Result<Lines, Interrupted> {
     let (old, new) = (&before.scanner().gaps, &after.scanner().gaps);
-    let mut resized = lines.resized(after.states());
+    let mut resized = lines.resized(after.states())?;
     let mut numbers = resized.writer();
     for at in old.positions().filter(|&at| new.upper(at).is_none()) {
         let steps = before.scanner().steps.from(at);
@@ -106,7 +106,7 @@ fn with_gaps(lines: &Lines, before: &CostGraph, after: &CostGraph) -> Lines {
             numbers.row_mut(upper).copy_from_slice(lines.row(old.upper(at).unwrap_or(at)));
         }
     }
-    resized
+    Ok(resized)
 }
 
 /// The ends of all moves that may have become cheaper; `None` for more than so many.

@@ -2,7 +2,7 @@
 
 use std::{num::NonZeroUsize, sync::Arc};
 
-use mediant_grid::{Identity, Interrupt, Interrupted, Vertex};
+use mediant_grid::{Identity, Interrupt, Interrupted, Vertex, room_for};
 use mediant_moves::{Cost, Vector};
 use mediant_search::{End, Path};
 
@@ -323,7 +323,9 @@ impl WalkingField {
 }
 
 fn run(graph: &WalkingGraph, heading: Heading, search: Search<'_>) -> Result<Labels, Interrupted> {
-    let mut costs = Vec::with_capacity(graph.map().heights().len());
+    let count = graph.map().heights().len();
+    room_for::<u64>(count, "filling memory")?;
+    let mut costs = Vec::with_capacity(count);
     for piece in graph.map().heights().chunks(1 << 18) {
         search.interrupt.check("filling memory")?;
         // No path beats the 0 of a blocked cell.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use mediant_grid::{Interrupt, MapId};
+use mediant_grid::{Interrupt, MapId, room_for};
 
 use super::{
     Pace, WalkingError,
@@ -144,6 +144,7 @@ impl<G: Fn(u32, u32) -> Option<(f64, f64)>> Cells<'_, G> {
 
     /// A number for each position, `blocked` where there is no cell.
     fn numbers<T: Copy>(&self, blocked: T, number: impl Fn(f64, f64) -> T) -> Result<Vec<T>, WalkingError> {
+        room_for::<T>(self.layout.len(), "filling memory")?;
         let mut numbers = vec![blocked; self.layout.len()];
         self.visit(|(x, y), (elevation, friction)| {
             numbers[self.layout.position(x as i32, y as i32)] = number(elevation, friction);

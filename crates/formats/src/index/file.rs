@@ -2,7 +2,7 @@
 
 use std::{fmt, fs, io::Write, path::Path};
 
-use mediant_grid::{Interrupt, Interrupted, uninterrupted};
+use mediant_grid::{Interrupt, Interrupted, room_for, uninterrupted};
 
 use super::{error::IndexError, header, key::IndexKey, layout::DIGEST_BYTES};
 use crate::{
@@ -77,7 +77,9 @@ impl IndexFile {
     /// [`Interrupted`], with nothing kept.
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = header::encode(&self.key, self.payload.len());
-        bytes.reserve_exact(self.payload.len() + DIGEST_BYTES);
+        let more = self.payload.len() + DIGEST_BYTES;
+        room_for::<u8>(bytes.len() + more, Interrupted::WRITING)?;
+        bytes.reserve_exact(more);
         bytes.extend_from_slice(&self.payload);
         let digest = header::digest_of(&[&bytes], interrupt, Interrupted::WRITING)?;
         bytes.extend_from_slice(&digest);

@@ -3,7 +3,10 @@
 use bitvec::{field::BitField, prelude::Lsb0, vec::BitVec};
 
 use super::BitMatrix;
-use crate::interrupt::{Interrupt, Interrupted, uninterrupted};
+use crate::{
+    interrupt::{Interrupt, Interrupted, uninterrupted},
+    room::room_for,
+};
 
 impl BitMatrix {
     /// A matrix in a frame of blocked bits; `blocked(x, y)` is asked once for each bit within, row by row.
@@ -13,6 +16,7 @@ impl BitMatrix {
         interrupt: &Interrupt,
         mut blocked: impl FnMut(u32, u32) -> bool,
     ) -> Result<Self, Interrupted> {
+        room_for::<u64>(Self::words_of(width, height), "making the map")?;
         let mut matrix = Self::filled(width, height, true);
         // The bits beyond the last column stay those of the frame.
         let mut row: BitVec<usize, Lsb0> = BitVec::repeat(true, matrix.words_per_row as usize * 64);
@@ -47,6 +51,7 @@ impl BitMatrix {
         (interrupt, during): (&Interrupt, &'static str),
         mut word: impl FnMut(i32, i32) -> u64,
     ) -> Result<Self, Interrupted> {
+        room_for::<u64>(Self::words_of(width, height), during)?;
         let mut matrix = Self::filled(width, height, frame);
         for y in 0..height as i32 {
             interrupt.check(during)?;

@@ -6,7 +6,10 @@ use super::{
     envelope::Envelope,
     sites::Sites,
 };
-use crate::interrupt::{Interrupt, Interrupted};
+use crate::{
+    interrupt::{Interrupt, Interrupted},
+    room::room_for,
+};
 
 /// A thread's scratch memory, kept from band to band.
 #[derive(Default)]
@@ -24,6 +27,7 @@ pub(super) fn squared_distances(sites: Sites<'_>, interrupt: &Interrupt) -> Resu
     let (width, height) = sites.size();
     // The row beyond the map: of centers, it is blocked itself. Vertices know their cells outside.
     let outside = if sites.outside == Outside::Blocked { 0 } else { NONE };
+    room_for::<u32>(width * height, "measuring clearances")?;
     let mut squared = vec![0; width * height].into_boxed_slice();
     let band = |scratch: &mut Scratch, (band, (squared, beyond)): (usize, (&mut [u32], &columns::Beyond))| {
         columns::for_each_row(sites, band, beyond, &mut scratch.upwards, |y, distances| {

@@ -2,7 +2,7 @@
 
 use mediant_grid::{
     Centers, Change, Grid, GridGraph, Identity, Interrupt, Interrupted, Vector, VersionEdit, Versioned,
-    Vertex, uninterrupted,
+    Vertex, room_for, uninterrupted,
 };
 use mediant_moves::FiniteK;
 
@@ -76,6 +76,7 @@ impl SegmentGraph {
         interrupt: &Interrupt,
     ) -> Result<Self, HierarchyError> {
         let mut graph = Self::without_edges(grid_graph, side)?;
+        room_for::<u8>(graph.segments_of_map(), DURING)?;
         let mut edges = Vec::with_capacity(graph.segments_of_map());
         for y in 0..graph.rows {
             for x in 0..graph.columns {
@@ -128,7 +129,7 @@ impl SegmentGraph {
     /// As for [`repair`](Self::repair), and [`HierarchyError::Interrupted`].
     pub fn repaired(&self, change: &Change, interrupt: &Interrupt) -> Result<Self, HierarchyError> {
         check::change(self.identity, change)?;
-        let edges = self.repaired_edges(self.edges.edit(), change, interrupt)?;
+        let edges = self.repaired_edges(self.edges.edit_if_room(DURING)?, change, interrupt)?;
         let identity = Identity { map: Some(change.after().id()), ..self.identity };
         Ok(Self { identity, edges, ..*self })
     }

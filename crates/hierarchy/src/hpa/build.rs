@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{BitMatrix, Grid, Interrupt, Interrupted, Vertex};
+use mediant_grid::{BitMatrix, Grid, Interrupt, Interrupted, Vertex, room_for};
 use mediant_moves::{CostTable, FiniteK};
 
 use super::{
@@ -19,6 +19,8 @@ const WIDE: u32 = 6;
 
 /// The clusters whose nodes are made between two questions of an interrupt.
 const CLUSTERS: usize = 64;
+/// The memory of a cluster's costs that is asked for before they are found; few clusters take more.
+const BYTES: usize = 1 << 13;
 
 /// Levels are made of these.
 pub(crate) struct Builder<'b> {
@@ -89,8 +91,13 @@ impl Builder<'_> {
         let (mut lowest, mut joins) = (LowestSearch::new(self), Joins::default());
         let mut cells = Vec::new();
         let mut changed = Dirty { nodes: Vec::new(), costs: Vec::new() };
-        for id in union(&dirty.nodes, &dirty.costs) {
+        let ids = union(&dirty.nodes, &dirty.costs);
+        for (number, &id) in ids.iter().enumerate() {
             self.interrupt.check(DURING)?;
+            // A repair of a few clusters takes less time than to ask.
+            if ids.len() > CLUSTERS && number.is_multiple_of(CLUSTERS) {
+                room_for::<[u8; BYTES]>(CLUSTERS, DURING)?;
+            }
             self.find_cells((level, id), below, &mut cells);
             let mut is_new = false;
             if dirty.costs.binary_search(&id).is_ok() || !level.has_nodes_at(id, &cells) {

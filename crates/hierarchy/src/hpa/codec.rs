@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted, uninterrupted};
+use mediant_grid::{Centers, GridGraph, Interrupt, Interrupted, room_in, uninterrupted};
 
 use super::{
     DURING,
@@ -34,16 +34,18 @@ impl ClusterGraph {
     /// [`Interrupted`], with nothing kept.
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
         let mut bytes = self.identity.to_bytes().to_vec();
-        let mut write = |word: u32| bytes.extend(word.to_le_bytes());
+        let write = |bytes: &mut Vec<u8>, word: u32| bytes.extend(word.to_le_bytes());
         let Clustering { side, levels } = self.clustering;
-        [side, levels].into_iter().for_each(&mut write);
+        [side, levels].into_iter().for_each(|word| write(&mut bytes, word));
         let clusters = self.levels.iter().flat_map(|level| level.clusters());
         for (number, Cluster { count, costs, .. }) in clusters.enumerate() {
             interrupt.check_every(64, number, Interrupted::WRITING)?;
-            write(*count);
+            let words = 1 + *count as usize * (*count as usize).saturating_sub(1) / 2;
+            room_in(&mut bytes, words * size_of::<u32>(), Interrupted::WRITING)?;
+            write(&mut bytes, *count);
             for from in 0..*count as usize {
                 let later = &costs[from * *count as usize..][from + 1..*count as usize];
-                later.iter().for_each(|cost| write(cost.to_bits()));
+                later.iter().for_each(|cost| write(&mut bytes, cost.to_bits()));
             }
         }
         Ok(bytes)

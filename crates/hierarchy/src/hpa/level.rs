@@ -2,7 +2,7 @@
 
 use std::{ops::Deref, sync::Arc};
 
-use mediant_grid::{Grid, Interrupt, VersionEdit, Versioned, Vertex};
+use mediant_grid::{Grid, Interrupt, VersionEdit, Versioned, Vertex, room_for};
 
 use super::{clustering::Clustering, fixed_cost::FixedCost};
 use crate::{HierarchyError, check, window::Window};
@@ -304,6 +304,8 @@ impl Level {
         let shape = Shape { side, columns, rows, stride };
         let blocks = u64::from(shape.count()).div_ceil(NODES as u64 / u64::from(stride));
         check::address_space(blocks * NODES as u64)?;
+        room_for::<[Node; NODES]>(blocks as usize, super::DURING)?;
+        room_for::<[Cluster; CLUSTERS]>(shape.count().div_ceil(CLUSTERS as u32) as usize, super::DURING)?;
         // Blocks are copied when they are first written to.
         let block = Arc::new([Node::UNUSED; NODES]);
         let mut clusters = Vec::new();

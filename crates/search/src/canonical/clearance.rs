@@ -18,6 +18,7 @@ mod repair;
 
 use mediant_grid::{
     CellOffset, Change, Grid, Interrupt, Interrupted, Placement, PlacementKind, Versioned, VertexId, load,
+    room_for,
 };
 
 use self::repair::Repair;
@@ -92,7 +93,9 @@ impl Clearance {
         let free = distances::<P>(grid, Layer::Free, interrupt)?;
         let corner = distances::<P>(grid, Layer::Corner, interrupt)?;
         let (width, height) = P::vertices(grid);
-        let mut values = Vec::with_capacity(width as usize * height as usize);
+        let count = width as usize * height as usize;
+        room_for::<[u8; 2]>(count, DURING)?;
+        let mut values = Vec::with_capacity(count);
         for (free, corner) in rows(&free, width).zip(rows(&corner, width)).take(height as usize) {
             interrupt.check(DURING)?;
             values.extend(free.iter().zip(corner).map(|(&free, &corner)| [free, corner]));
@@ -119,7 +122,7 @@ impl Clearance {
         change: &Change,
         interrupt: &Interrupt,
     ) -> Result<Option<Self>, Interrupted> {
-        let mut values = self.values.edit();
+        let mut values = self.values.edit_if_room(DURING)?;
         for layer in [Layer::Free, Layer::Corner] {
             if !Repair::new::<P>(&mut values, change.after(), layer).follow::<P>(change, interrupt)? {
                 return Ok(None);

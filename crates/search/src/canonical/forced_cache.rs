@@ -9,7 +9,7 @@ use std::{
     },
 };
 
-use mediant_grid::{Change, Interrupt, Interrupted, Placement, Versioned, VertexId};
+use mediant_grid::{Change, Interrupt, Interrupted, Placement, Versioned, VertexId, room_for};
 
 /// For each vertex and arriving move, whether there is a forced successor: two bits, of which the lower says
 /// 'none', the higher 'some', and neither 'unknown'.
@@ -63,6 +63,7 @@ impl ForcedCache {
         const PIECE: usize = 1 << 9;
         let words = vertices.div_ceil(32).checked_mul(1 << k);
         let count = words.filter(|&words| words <= Self::MAX_WORDS).unwrap_or(0).div_ceil(Block::WORDS);
+        room_for::<Block>(count, "filling memory")?;
         let mut blocks = Vec::with_capacity(count);
         while blocks.len() < count {
             interrupt.check("filling memory")?;
@@ -84,7 +85,7 @@ impl ForcedCache {
             first.saturating_sub(reach)..first.saturating_add(count).saturating_add(reach + 1).min(side)
         };
         let mut left = self.blocks.len() * Block::WORDS;
-        let mut blocks = self.blocks.edit();
+        let mut blocks = self.blocks.edit_if_room("filling memory")?;
         for at in change.cells() {
             let (columns, rows) = (near(at.x, at.width, width), near(at.y, at.height, height));
             interrupt.check("forgetting what a change makes uncertain")?;

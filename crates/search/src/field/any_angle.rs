@@ -111,7 +111,8 @@ impl<S: Deref<Target = FreeSpace<Corners>> + Clone> AnyAngleFields<S> {
     ) -> Result<AnyAngleField<S>, FieldError> {
         let Sources { vertices, between } = query.check_points(&self.space)?;
         let count = self.space.vertex_count();
-        let (mut lengths, mut toward) = (filled(f64::INFINITY, count, interrupt)?, vec![0; count]);
+        let (mut lengths, mut toward) =
+            (filled(f64::INFINITY, count, interrupt)?, filled(0, count, interrupt)?);
         self.open.clear();
         self.bends.clear();
         for &id in &vertices {

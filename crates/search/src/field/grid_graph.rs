@@ -167,7 +167,7 @@ impl<P: Placement, G: Deref<Target = GridGraph<P>> + Clone> Fields<G, P> {
             return self.field_interruptible(query, interrupt);
         }
         let sources = query.check(&self.graph)?;
-        self.fill_edit(query, &sources, old.versioned().edit(), interrupt)
+        self.fill_edit(query, &sources, old.versioned().edit_if_room("filling memory")?, interrupt)
     }
 
     /// The same in the memory of a field that is not needed any more.

@@ -71,7 +71,7 @@ pub(super) fn repaired<P: Placement>(
     }
     let mut repair = Repair {
         graph,
-        costs: costs.edit(),
+        costs: costs.edit_if_room("repairing the distances of a field")?,
         reach,
         buckets: Buckets::new(0, longest),
         raised: Vec::new(),

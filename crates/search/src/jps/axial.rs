@@ -15,7 +15,7 @@
 
 use mediant_grid::{
     BitMatrix, CornerRule, DiagonalGap, GridGraph, Interrupt, Interrupted, Placement, Rules, Vector,
-    Versioned, Vertex, load,
+    Versioned, Vertex, load, room_for, room_in,
 };
 use mediant_moves::FiniteK;
 
@@ -271,6 +271,7 @@ impl AxialStops {
         let grid = graph.grid();
         let (width, height) = P::vertices(grid);
         let rule = JumpPointRule::of(graph);
+        room_for::<[u64; 2]>(Self::words(graph), DURING)?;
         let mut words = Vec::with_capacity(Self::words(graph));
         let mut plane = |quarter: usize| {
             let (vertical, forward) = direction(quarter);
@@ -315,9 +316,10 @@ impl AxialStops {
         interrupt: &Interrupt,
     ) -> Result<(Self, Vec<(Vertex, usize)>), Interrupted> {
         let (grid, rule) = (graph.grid(), JumpPointRule::of(graph));
-        let (mut edit, mut differences) = (self.words.edit(), Vec::new());
+        let (mut edit, mut differences) = (self.words.edit_if_room(DURING)?, Vec::new());
         for &zone in zones {
             interrupt.check(DURING)?;
+            room_in(&mut differences, 1 << 10, DURING)?;
             for quarter in 0..4 {
                 let (vertical, forward) = direction(quarter);
                 let matrix = if vertical { grid.columns() } else { grid.rows() };

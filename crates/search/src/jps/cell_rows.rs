@@ -1,6 +1,6 @@
 //! Rows of cells by words: those around 64 vertices of a row, and where axial jumps end among these.
 
-use mediant_grid::{BitMatrix, Grid, GridGraph, Interrupt, Interrupted, Placement, load};
+use mediant_grid::{BitMatrix, Grid, GridGraph, Interrupt, Interrupted, Placement, load, room_for};
 
 use super::{
     DURING,
@@ -107,6 +107,7 @@ impl EndRows {
         let (rule, per_row) = (JumpPointRule::of(graph), width.div_ceil(64) as usize);
         let (mut rows, between) = ([const { Vec::new() }; 4], 8 / graph.steps().len());
         let words = per_row * height as usize;
+        room_for::<JumpStops>(words * graph.steps().len() / 2, DURING)?;
         rows.iter_mut().step_by(between).for_each(|rows| rows.reserve_exact(words));
         for y in 0..height as i32 {
             interrupt.check(DURING)?;

@@ -15,10 +15,15 @@
 //! The planes are computed in rows, 64 vertices at a time, and then turned, 64 × 64 bits at a time. They take
 //! twelve bits a vertex, on top of the byte of [`AxialStops`](super::axial::AxialStops).
 
-use mediant_grid::{GridGraph, Interrupt, Interrupted, Placement, Vector, VersionEdit, Versioned, Vertex};
+use mediant_grid::{
+    GridGraph, Interrupt, Interrupted, Placement, Vector, VersionEdit, Versioned, Vertex, room_for,
+};
 use mediant_moves::FiniteK;
 
-use super::stop_rows::{EnterRows, Leads, StopRows, Stops};
+use super::{
+    DURING,
+    stop_rows::{EnterRows, Leads, StopRows, Stops},
+};
 use crate::canonical::Pruning;
 
 /// Where diagonal jumps stop, for each vertex of a grid graph with k ≤ 3.
@@ -76,6 +81,7 @@ impl DiagonalStops {
         let per_line = (length / 64 + 1) as usize;
         let per_plane = lines as usize * per_line;
         let words = Self::words(graph);
+        room_for::<Stops>(words, DURING)?;
         let mut all = Self {
             planes: [Plane::default(); 4],
             words: vec![[0; 3]; words].into(),
@@ -101,8 +107,8 @@ impl DiagonalStops {
     }
 
     /// Begins an edit of these planes, which stay as they are.
-    pub(super) fn edit(&self) -> DiagonalEdit<'_> {
-        DiagonalEdit { before: self, words: self.words.edit() }
+    pub(super) fn edit(&self) -> Result<DiagonalEdit<'_>, Interrupted> {
+        Ok(DiagonalEdit { before: self, words: self.words.edit_if_room(DURING)? })
     }
 
     /// The place of the bit of a vertex of the map for jumps by the odd move `index`.

@@ -23,7 +23,9 @@ mod repair;
 mod stale;
 mod words;
 
-use mediant_grid::{Footprint, GridGraph, Interrupt, Interrupted, Placement, Versioned, Vertex, VertexId};
+use mediant_grid::{
+    Footprint, GridGraph, Interrupt, Interrupted, Placement, Versioned, Vertex, VertexId, room_for, room_in,
+};
 
 pub(super) use self::record::Recorder;
 use self::words::{Head, Jump, MOST_STEPS, Route, packed};
@@ -98,6 +100,9 @@ impl Place {
     }
 }
 
+/// Words for which there is room before the lists of some jump points are made: these take fewer.
+const ROOM_AHEAD: usize = 1 << 13;
+
 impl JumpLists {
     /// Finds the jumps from all jump points that are no dead ends; none if they are too many.
     pub(super) fn new<P: Placement>(
@@ -116,7 +121,9 @@ impl JumpLists {
         };
         let routes = Route::all(graph);
         let per_move = vertices.div_ceil(64);
-        let mut places = vec![Place::default(); graph.steps().len() / 2 * per_move];
+        let count = graph.steps().len() / 2 * per_move;
+        room_for::<Place>(count, DURING)?;
+        let mut places = vec![Place::default(); count];
         let (mut starts, mut words) = (Vec::new(), Vec::new());
         let most = Self::most_words(graph);
         let (width, _) = P::vertices(graph.grid());
@@ -124,6 +131,10 @@ impl JumpLists {
             interrupt.check(DURING)?;
             for (number, x) in columns(points).enumerate() {
                 interrupt.check_every(64, number, DURING)?;
+                if number.is_multiple_of(64) {
+                    room_in(&mut words, ROOM_AHEAD, DURING)?;
+                    room_in(&mut starts, 64, DURING)?;
+                }
                 let at = Vertex::new(x, row);
                 let Some(id) = graph.id(at) else { continue };
                 let start = words.len();

@@ -147,7 +147,7 @@ impl<'r, P: Placement> Repair<'r, P> {
                 words = words_of(&axial, &found);
             }
         }
-        let mut edit = self.diagonals.edit();
+        let mut edit = self.diagonals.edit()?;
         for &zone in &zones {
             self.interrupt.check(DURING)?;
             self.set_zone(&axial, (change.before(), zone), &mut edit);

@@ -8,7 +8,7 @@
 //! Rule variants: all five. Under closed gaps a jump ends before a gap. The table does not say what paths do
 //! at gaps: where they begin or end at one, and at k = 2 where they pass one.
 
-use mediant_grid::{Change, GridGraph, Identity, Interrupt, Interrupted, Placement, uninterrupted};
+use mediant_grid::{Change, GridGraph, Identity, Interrupt, Interrupted, Placement, room_for, uninterrupted};
 use mediant_moves::KError;
 
 use super::{
@@ -153,6 +153,9 @@ impl JumpTable {
             bytes.extend(NO_LISTS.to_le_bytes());
             return Ok(bytes);
         }
+        let count = self.lists.words().count() * size_of::<u32>();
+        room_for::<u8>(count + bytes.len(), Interrupted::WRITING)?;
+        bytes.reserve_exact(count);
         for (number, word) in self.lists.words().enumerate() {
             interrupt.check_every(1 << 16, number, Interrupted::WRITING)?;
             bytes.extend(word.to_le_bytes());

@@ -2,6 +2,8 @@
 
 use std::ops::Index;
 
+use mediant_grid::{Interrupted, room_for};
+
 use super::overlay_arc::OverlayArc;
 
 /// A list of arcs for each subgoal. They lie in one list: a list of its own for each would scatter them over
@@ -25,6 +27,11 @@ struct Place {
 
 /// Room that is not worth compacting.
 const SMALL: usize = 1 << 12;
+
+/// The length of a list of so many arcs that has little room.
+const fn compacted(total: usize) -> usize {
+    total + total / 8 + SMALL
+}
 
 impl ArcLists {
     /// Empty lists, with room for so many arcs of each subgoal.
@@ -52,6 +59,14 @@ impl ArcLists {
     /// The arcs of each subgoal.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &[OverlayArc]> {
         (0..self.len()).map(|id| &self[id])
+    }
+
+    /// Asks for the memory of the next list: of a longer one, if this one may soon be full, else of one without
+    /// the room that is given up.
+    pub(super) fn check_room(&self, during: &'static str) -> Result<(), Interrupted> {
+        let (length, capacity) = (self.arcs.len(), self.arcs.capacity());
+        let is_wide = capacity - length > length / 2 + SMALL;
+        room_for::<OverlayArc>(if is_wide { compacted(self.total) } else { 2 * capacity.max(SMALL) }, during)
     }
 
     /// Sets the arcs of a subgoal that has none, and no room.
@@ -87,7 +102,7 @@ impl ArcLists {
 
     /// Gives up all room.
     fn compact(&mut self) {
-        let mut arcs = Vec::with_capacity(self.total + self.total / 8 + SMALL);
+        let mut arcs = Vec::with_capacity(compacted(self.total));
         for place in &mut self.places {
             let own = &self.arcs[place.first..place.first + place.length as usize];
             *place = Place { first: arcs.len(), length: place.length, room: place.length };

@@ -1,8 +1,8 @@
 //! Shortcuts of subgoals that may be contracted, found for many of them at once.
 
-use mediant_grid::Interrupted;
+use mediant_grid::{Interrupted, room_for};
 
-use super::{Contraction, ShortcutFinder, Shortcuts, SubgoalGeometry};
+use super::{Contraction, DURING, ShortcutFinder, Shortcuts, SubgoalGeometry};
 use crate::chunks::Pool;
 
 /// The shortcuts that contracting a subgoal takes, with the work to find them.
@@ -15,6 +15,9 @@ pub(super) struct Evaluation {
     /// The number of arcs that witness searches scanned.
     pub(super) arcs_scanned: u64,
 }
+
+/// The memory that is asked for before a subgoal is looked at. Most take less, a few take more.
+const BYTES: usize = 1 << 9;
 
 /// Scratch memory for each thread.
 pub(super) type Finders = Pool<ShortcutFinder>;
@@ -29,6 +32,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         limit: u64,
         are_kept: bool,
     ) -> Result<Vec<Evaluation>, Interrupted> {
+        room_for::<[u8; BYTES]>(ids.len(), DURING)?;
         let evaluate_one = |finder: &mut ShortcutFinder, id| {
             let evaluation = self.evaluate_one(finder, id, limit)?;
             let shortcuts = if are_kept { evaluation.shortcuts } else { Shortcuts::new() };

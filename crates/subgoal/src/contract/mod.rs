@@ -14,7 +14,7 @@ mod rounds;
 mod tests;
 mod witness;
 
-use mediant_grid::{Interrupt, Interrupted, Vector, Vertex};
+use mediant_grid::{Interrupt, Interrupted, Vector, Vertex, room_for};
 
 pub(crate) use self::{arc_lists::ArcLists, overlay_arc::OverlayArc};
 
@@ -108,6 +108,7 @@ impl<G: SubgoalGeometry> Contraction<G> {
         geometry: G,
         interrupt: Interrupt,
     ) -> Result<Self, Interrupted> {
+        room_for::<OverlayArc>(2 * edges.len() + count, DURING)?;
         let mut counts = vec![0; count];
         for (number, &(a, b)) in edges.iter().enumerate() {
             interrupt.check_every(1 << 14, number, DURING)?;

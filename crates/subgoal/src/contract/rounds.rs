@@ -23,10 +23,10 @@
 //! budget ends, and is the core. A remainder so small that all its arcs together are no more than the first
 //! edges is contracted, too, with shorter searches.
 
-use mediant_grid::Interrupted;
+use mediant_grid::{Interrupted, room_for};
 
 use super::{
-    Contraction, SubgoalGeometry,
+    Contraction, DURING, SubgoalGeometry,
     evaluate::{Evaluation, Finders},
     priority::Priorities,
 };
@@ -68,6 +68,7 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
     ) -> Result<(), Interrupted> {
         let edges = self.edges();
         let finders = Finders::default();
+        room_for::<[u64; 12]>(self.arcs.len(), DURING)?;
         let mut priorities = Priorities::new(self.arcs.len());
         let mut check: Vec<u32> = (0..self.arcs.len() as u32).collect();
         let mut arcs_scanned = 0;
@@ -118,6 +119,8 @@ impl<G: SubgoalGeometry + Sync> Contraction<G> {
         // Neighbors of candidates are no candidates. So what one slice changes is not what another looks at,
         // except for witnesses.
         for ids in candidates.chunks(SLICE) {
+            self.arcs.check_room(DURING)?;
+            self.upward.check_room(DURING)?;
             for evaluation in self.evaluate(ids, finders, limit, true)? {
                 let id = evaluation.id;
                 arcs_scanned += evaluation.arcs_scanned;

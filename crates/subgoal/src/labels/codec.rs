@@ -11,7 +11,7 @@
 
 use std::{marker::PhantomData, sync::Arc};
 
-use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, uninterrupted};
+use mediant_grid::{FreeSpace, Identity, Interrupt, Interrupted, room_for, uninterrupted};
 use mediant_moves::K;
 use mediant_search::parts::Metric;
 
@@ -39,6 +39,7 @@ impl<P: SubgoalPlacement> HubLabels<P> {
     /// # Errors
     /// [`Interrupted`], with nothing kept.
     pub fn to_bytes_interruptible(&self, interrupt: &Interrupt) -> Result<Vec<u8>, Interrupted> {
+        room_for::<u8>(self.memory_bytes() + 64, Interrupted::WRITING)?;
         let mut bytes = Vec::with_capacity(self.memory_bytes() + 64);
         bytes.extend(self.identity.to_bytes());
         bytes.extend(LABELS.to_le_bytes());

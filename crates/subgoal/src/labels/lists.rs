@@ -4,6 +4,8 @@
 //! has the next subgoal, and above it the rest of the cost. So first words in order are labels in the order
 //! of their costs. The lists of many subgoals lie in one piece of memory.
 
+use mediant_grid::{Interrupted, room_for};
+
 use super::{
     merge::Label,
     pack::{cost_bits_of, most_cost},
@@ -153,6 +155,13 @@ impl LabelLists {
             .get(piece as usize)
             .map_or([&[][..]; 2], |piece| piece.words.each_ref().map(|words| &words[first..end]));
         LabelList { form: self.form, words }
+    }
+
+    /// Asks for the memory of as many labels again, or of the next piece.
+    pub(super) fn check_room(&self, during: &'static str) -> Result<(), Interrupted> {
+        let kept = self.pieces.last().map_or(0, |piece| piece.words[0].len());
+        let next = if self.pieces.len() > 1 { MOST } else { 2 * kept };
+        room_for::<[u64; 2]>(next, during)
     }
 
     /// Adds the labels of a subgoal that has none yet.

@@ -16,7 +16,7 @@
 //! **Order.** A level of the hierarchy depends on those above it alone. Its subgoals are merged on all cores,
 //! with the same result.
 
-use mediant_grid::{Interrupt, Interrupted};
+use mediant_grid::{Interrupt, Interrupted, room_for};
 
 use super::lists::{Form, LabelLists};
 use crate::{
@@ -71,6 +71,7 @@ pub(super) fn merge(
     for level in levels(graph, interrupt)? {
         // So that there are never many more than that.
         for part in level.chunks(PART) {
+            labels.check_room(DURING)?;
             let threads = pool.merge(part, (graph, geometry), &labels, interrupt)?;
             for (turn, &id) in part.iter().enumerate() {
                 let own = pool.free[turn % threads].made.list(turn / threads);
@@ -143,6 +144,8 @@ impl Pool {
         interrupt: &Interrupt,
     ) -> Result<usize, SubgoalError> {
         let threads = threads(part.len());
+        let more = threads.saturating_sub(self.free.len());
+        room_for::<(u64, (u128, u32), (u32, bool))>(more * self.count, DURING)?;
         self.free.resize_with(self.free.len().max(threads), || Scratch::new(self.count));
         let work = |(thread, scratch): (usize, &mut Scratch)| {
             scratch.made.clear();

@@ -1,6 +1,6 @@
 //! The labels as a query reads them.
 
-use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex};
+use mediant_grid::{FreeSpace, Interrupt, Interrupted, Vector, Vertex, room_for, room_in};
 use mediant_moves::K;
 
 use super::lists::{Form, LabelLists};
@@ -165,14 +165,17 @@ impl Packed {
     ) -> Result<Option<Self>, Interrupted> {
         let cost_bits = cost_bits_of(labels.len());
         arrange(context, &mut labels, interrupt)?;
-        let mut sides = Vec::with_capacity(labels.len() * P::SIDES as usize + 1);
+        let count = labels.len() * P::SIDES as usize + 1;
+        room_for::<Side>(count, DURING)?;
+        let mut sides = Vec::with_capacity(count);
         let mut groups = vec![Group::BEFORE];
         let mut end = 0;
         for id in 0..labels.len() as u32 {
             interrupt.check_every(64, id as usize, DURING)?;
+            let [_, words] = labels.of(id).words;
+            room_in(&mut groups, words.len(), DURING)?;
             let at = context.subgoals.vertex(id);
             let next = |&word: &u64| labels.form.id(word);
-            let [_, words] = labels.of(id).words;
             let mut same = words.chunk_by(|a, b| next(a) == next(b)).peekable();
             for side in 0..P::SIDES {
                 let first = groups.len();
@@ -194,6 +197,7 @@ impl Packed {
         sides.push(Side::last(groups.len()));
         // Less memory before more is taken.
         let words = labels.into_first_words();
+        room_for::<u64>(end, DURING)?;
         let mut packed = Vec::with_capacity(end);
         for (own, id) in words.iter().zip(0..) {
             interrupt.check_every(64, id, DURING)?;

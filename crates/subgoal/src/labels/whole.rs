@@ -10,7 +10,7 @@
 //! query leads over them, but over N(k) some paths over them cost as little. So labels that lead nowhere are
 //! pruned; no label that is a distance is.
 
-use mediant_grid::{Interrupt, Interrupted};
+use mediant_grid::{Interrupt, Interrupted, room_for};
 
 use super::lists::{Form, LabelLists};
 use crate::chunks::in_chunks;
@@ -75,6 +75,7 @@ const PIECE: u32 = 1 << 10;
 
 /// By hub, the number of its labels.
 fn counts(labels: &LabelLists, interrupt: &Interrupt) -> Result<Vec<u32>, Interrupted> {
+    room_for::<u32>(labels.len(), DURING)?;
     let mut counts = vec![0_u32; labels.len()];
     for id in 0..labels.len() as u32 {
         interrupt.check_every(PIECE as usize, id as usize, DURING)?;
@@ -106,6 +107,7 @@ impl ByHub {
             sum += count;
             first.push(sum);
         }
+        room_for::<Listed>(sum as usize, DURING)?;
         let (mut next, mut listed) = (first.clone(), vec![Listed::default(); sum as usize]);
         for id in 0..labels.len() as u32 {
             interrupt.check_every(PIECE as usize, id as usize, DURING)?;

@@ -21,7 +21,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{BitMatrix, Interrupt, Interrupted, Versioned};
+use mediant_grid::{BitMatrix, Interrupt, Interrupted, Versioned, room_for, room_in};
 
 use super::runs::{CellRun, DURING};
 
@@ -213,6 +213,7 @@ impl RunGraph {
         let (mut above, reach) = (0, i32::from(gaps_are_open));
         for y in 0..map.height() as i32 {
             interrupt.check(DURING)?;
+            room_in(&mut vertices, width as usize, DURING)?;
             let (row, start) = (map.row(y), vertices.len());
             let mut first = row.first_free(0, width);
             while first < width {
@@ -238,6 +239,7 @@ impl RunGraph {
 
     /// The part of each run, and all parts but part 0.
     fn parts(&self, interrupt: &Interrupt) -> Result<(Vec<u32>, Vec<Part>), Interrupted> {
+        room_for::<(Visit, [u32; 3], Part)>(self.vertices.len(), DURING)?;
         let (mut visits, order) = self.visit_all(interrupt)?;
         for (number, &v) in order.iter().rev().enumerate() {
             interrupt.check_every(PIECE, number, DURING)?;
