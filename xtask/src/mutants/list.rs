@@ -123,11 +123,11 @@ pub(super) fn mutants() -> Result<Vec<Mutant>, Error> {
     }
     let listed: Vec<Listed> = serde_json::from_slice(&output.stdout).map_err(|_| step())?;
     let chosen = listed.into_iter().filter_map(|listed| Some((group(&listed)?, listed)));
-    Ok(chosen.zip(1..).map(|((group, listed), id)| mutant(group, listed, id)).collect())
+    Ok(chosen.zip(1..).map(|((group, listed), id)| mutant(group, &listed, id)).collect())
 }
 
-fn mutant(group: &'static str, listed: Listed, id: u32) -> Mutant {
-    let Listed { file, genre, replacement, span, .. } = &listed;
+fn mutant(group: &'static str, listed: &Listed, id: u32) -> Mutant {
+    let Listed { file, genre, replacement, span, .. } = listed;
     Mutant {
         id,
         file: file.clone(),

@@ -75,7 +75,8 @@ impl<'a> Bench<'a> {
             if spent + in_batch + seconds > self.longest {
                 break;
             }
-            (batch.push(number), in_batch += seconds);
+            batch.push(number);
+            in_batch += seconds;
             if in_batch >= room {
                 if let Some(outcome) = self.batch(mutant, &batch)? {
                     return Ok(outcome);
