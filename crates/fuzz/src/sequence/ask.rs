@@ -3,7 +3,7 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant::{
-    Answer, Exceptions, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query, Vertex,
+    Answer, Exceptions, Field, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query, Vertex,
     errors::QueryError,
 };
 
@@ -18,14 +18,14 @@ const PARTS: i64 = 1024;
 
 impl Run {
     /// A vertex on the map, or in one of eight just outside.
-    fn vertex(&self, bytes: &mut Bytes<'_>) -> Vertex {
+    pub(super) fn vertex(&self, bytes: &mut Bytes<'_>) -> Vertex {
         let (width, height) = self.known.size();
         let at = Vertex::new(bytes.below(width as usize) as i32, bytes.below(height as usize) as i32);
         if bytes.byte() >= 224 { Vertex::new(at.x - width, at.y) } else { at }
     }
 
     /// Some free vertices; none if there is none.
-    fn free(&self, bytes: &mut Bytes<'_>, most: usize) -> Vec<Vertex> {
+    pub(super) fn free(&self, bytes: &mut Bytes<'_>, most: usize) -> Vec<Vertex> {
         let free = self.known.free();
         if free.is_empty() {
             return Vec::new();
@@ -34,12 +34,12 @@ impl Run {
         (0..count).map(|_| free[bytes.below(free.len())]).collect()
     }
 
-    fn guarantee(&self) -> Guarantee {
+    pub(super) fn guarantee(&self) -> Guarantee {
         self.planner.guarantee()
     }
 
     /// Checks a path that was found between some of these ends.
-    fn check_path(&mut self, path: &Path, pairs: &[(Vertex, Vertex)]) {
+    pub(super) fn check_path(&mut self, path: &Path, pairs: &[(Vertex, Vertex)]) {
         let ends = path.waypoints().first().copied().zip(path.waypoints().last().copied());
         self.check(ends.is_some_and(|ends| pairs.contains(&ends)), || format!("{path}: other ends"));
         self.check(self.known.holds(path), || format!("{path} is not legal"));
@@ -50,7 +50,7 @@ impl Run {
     }
 
     /// Checks an answer without limits between some of these ends, which are free.
-    fn check_answer(&mut self, answer: Result<Answer, QueryError>, pairs: &[(Vertex, Vertex)]) {
+    pub(super) fn check_answer(&mut self, answer: Result<Answer, QueryError>, pairs: &[(Vertex, Vertex)]) {
         let is_reachable = pairs.iter().any(|&(from, to)| self.known.cost(from, to).is_some());
         match answer {
             Ok(Answer::Found(path)) => self.check_path(&path, pairs),
@@ -206,6 +206,10 @@ impl Run {
         }
         self.say(&format!("field {sources:?}"));
         let field = self.space.field(sources.iter().copied()).expect("free sources");
+        self.check_field(&field, &sources);
+    }
+
+    pub(super) fn check_field(&self, field: &Field, sources: &[Vertex]) {
         for at in self.known.free() {
             let least = sources.iter().filter_map(|&from| self.known.cost(from, at)).min_by(f64::total_cmp);
             let found = field.get(at);

@@ -6,13 +6,19 @@
 
 mod ask;
 mod known;
+mod stops;
+mod tables;
+mod wishes;
 
 use std::fmt::Write as _;
 
 use mediant::{
-    Engine, FiniteK, Index, K, Map, Motion, Path, Planner, Rectangle, Rules, Setup, Space, Vertex,
+    Change, Engine, FiniteK, Goals, Index, K, Map, Motion, Path, Planner, Rectangle, Rules, Setup, Space,
+    Vertex,
 };
 use mediant_grid::{CornerRule, Grid};
+
+pub(crate) use self::wishes::NthLook;
 
 use self::known::Known;
 use crate::bytes::Bytes;
@@ -29,6 +35,8 @@ struct Run {
     known: Known,
     /// The last path that was found.
     path: Option<Path>,
+    /// Goals that were prepared, perhaps for the map before an edit.
+    goals: Option<Goals>,
     text: String,
 }
 
@@ -45,7 +53,7 @@ pub(crate) fn run(data: &[u8]) {
     let planner = index.planner();
     let known = Known::new(grid, setup);
     let text = format!("{setup}\n{}", drawn(known.grid()));
-    let mut run = Run { setup, space, index, planner, known, path: None, text };
+    let mut run = Run { setup, space, index, planner, known, path: None, goals: None, text };
     for _ in 0..MOST {
         if bytes.is_empty() {
             return;
@@ -71,7 +79,7 @@ fn grid(bytes: &mut Bytes<'_>) -> Grid {
 fn motion(bytes: &mut Bytes<'_>) -> Motion {
     let rules = Rules::ALL[bytes.below(Rules::ALL.len())];
     let k = match bytes.below(8) {
-        7 if matches!(rules, Rules::Corner(_)) => K::Any,
+        5.. if matches!(rules, Rules::Corner(_)) => K::Any,
         // The tables of canonical search for a greater k take seconds, once a process.
         number => K::Finite(FiniteK::new([2, 3, 4, 5, 3, 2, 6, 4][number]).expect("a k")),
     };
@@ -107,7 +115,7 @@ impl Run {
     }
 
     fn operation(&mut self, bytes: &mut Bytes<'_>) {
-        match bytes.below(16) {
+        match bytes.below(24) {
             0 | 1 => self.edit(bytes),
             2 => self.prepare_anew(),
             3 => self.save_and_load(),
@@ -118,7 +126,14 @@ impl Run {
             9 => self.tolerance(bytes),
             10 | 11 => self.limits(bytes),
             12 => self.points(bytes),
-            _ => self.path(bytes),
+            13 | 14 if self.setup.k() == K::Any => self.points(bytes),
+            13..16 => self.path(bytes),
+            16 => self.stopped(bytes),
+            17 => self.table(bytes),
+            18 => self.goals(bytes),
+            19 => self.earlier_goals(bytes),
+            20 => self.mistake(bytes),
+            _ => self.wish(bytes),
         }
     }
 
@@ -147,14 +162,20 @@ impl Run {
         let cells = self.cells(bytes);
         self.say(&format!("edit {cells:?}"));
         let change = self.space.edit_cells(cells.iter().copied()).expect("cells of the map");
-        self.index = self.index.repair(&change).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
-        self.space = change.after().clone();
+        self.follow(&change, &cells);
         if bytes.byte() < 64 {
             self.say("finish");
             self.index = self.index.finish().unwrap_or_else(|error| panic!("{error}\n{}", self.text));
+            self.planner.follow(&self.index).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
         }
+    }
+
+    /// All that was prepared follows a change of some cells, and so does the oracle.
+    fn follow(&mut self, change: &Change, cells: &[(Vertex, bool)]) {
+        self.index = self.index.repair(change).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
+        self.space = change.after().clone();
         self.planner.follow(&self.index).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
-        self.known = Known::new(known::edited(self.known.grid(), &cells), self.setup);
+        self.known = Known::new(known::edited(self.known.grid(), cells), self.setup);
         let id = Map::from(self.known.grid().clone()).id();
         self.check(self.space.map().id() == id, || "the edited map is another one".to_owned());
         if let Some(path) = self.path.take() {
