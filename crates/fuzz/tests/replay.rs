@@ -7,7 +7,7 @@ use mediant_oracle::Rng;
 
 /// Changed inputs of each seed and each kept input; of a program, which takes a thousand times as long,
 /// fewer.
-const CHANGES: (u64, u64) = (100, 8);
+const CHANGES: (u64, u64) = (300, 40);
 /// The most bytes of one kept input, and of all together: they are in the history for ever.
 const MOST_BYTES: (usize, usize) = (1024, 600_000);
 /// The kept inputs of each target, as `cargo xtask fuzz --keep` tells: so none is left out unseen.

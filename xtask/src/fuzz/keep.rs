@@ -2,6 +2,7 @@
 
 use std::{
     cmp::Reverse,
+    collections::BinaryHeap,
     fs,
     path::{Path, PathBuf},
 };
@@ -116,24 +117,30 @@ fn parsed(text: &str) -> Vec<Input> {
     inputs
 }
 
-/// One after another the input that reaches most that none before it does; of several that are text those,
+/// One after another the input that reaches most that none before it does; of several those that are text,
 /// then the smallest. So many inputs and bytes at most.
 fn chosen(inputs: &[Input], (most, most_bytes): (usize, u64)) -> Vec<&Input> {
     let features = inputs.iter().flat_map(|input| &input.features).max().map_or(0, |&last| last as usize + 1);
     let mut is_reached = vec![false; features];
-    let (mut chosen, mut bytes) = (Vec::<&Input>::new(), 0);
-    while chosen.len() < most {
-        let new = |input: &Input| input.features.iter().filter(|&&at| !is_reached[at as usize]).count();
-        let fitting = inputs.iter().filter(|input| bytes + input.bytes <= most_bytes);
-        let rated =
-            fitting.map(|input| ((new(input), input.is_text, Reverse((input.bytes, &input.path))), input));
-        let Some((_, best)) = rated.filter(|((new, ..), _)| *new > 0).max_by_key(|&(rating, _)| rating)
-        else {
-            break;
-        };
-        best.features.iter().for_each(|&at| is_reached[at as usize] = true);
-        bytes += best.bytes;
-        chosen.push(best);
+    let (mut chosen, mut bytes) = (Vec::new(), 0);
+    let rated = |new: usize, at: usize| (new, inputs[at].is_text, Reverse((inputs[at].bytes, at)));
+    let mut rest: BinaryHeap<_> = (0..inputs.len()).map(|at| rated(inputs[at].features.len(), at)).collect();
+    while chosen.len() < most
+        && let Some((known, _, Reverse((_, at)))) = rest.pop()
+    {
+        let input = &inputs[at];
+        let new = input.features.iter().filter(|&&at| !is_reached[at as usize]).count();
+        if new == 0 || bytes + input.bytes > most_bytes {
+            continue;
+        }
+        // It may have reached more when it was rated; none that is left reaches more than its own rating.
+        if new < known {
+            rest.push(rated(new, at));
+            continue;
+        }
+        input.features.iter().for_each(|&at| is_reached[at as usize] = true);
+        bytes += input.bytes;
+        chosen.push(input);
     }
     chosen
 }

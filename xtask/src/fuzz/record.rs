@@ -119,7 +119,7 @@ fn added(known: Option<Record>, name: &str, turn: &Turn) -> Record {
             varying("features", "", "edges, by how often they are passed"),
             varying("inputs", "", "inputs that each reach something else"),
             varying("quiet", "minutes", "time since the last new edge"),
-            varying("wrong", "", "inputs that were treated wrongly"),
+            varying("wrong", "", "inputs that were treated wrongly, since mended"),
         ],
         rows,
     }

@@ -13,7 +13,7 @@ use mediant_grid::Grid;
 use mediant_oracle::WeightedMap;
 
 use self::known::{FRICTION, Known, ROOM};
-use crate::{bytes::Bytes, sequence::NthLook};
+use crate::{bytes::Bytes, costs::KS, sequence::NthLook};
 
 /// The most operations of a program.
 const MOST: usize = 8;
@@ -60,7 +60,7 @@ fn known(bytes: &mut Bytes<'_>) -> Known {
     let cell_size = [(1.0, 1.0), (10.0, 10.0), (10.0, 20.0), (3.5, 1.5)][bytes.below(4)];
     let scale = [0.0, 0.01, 0.125, 1.0][bytes.below(4)];
     let rule = CornerRule::ALL[bytes.below(CornerRule::ALL.len())];
-    let k = FiniteK::new(2 + bytes.below(7) as u32).expect("a k");
+    let k = FiniteK::new(KS[bytes.below(KS.len())]).expect("a k");
     let pace = match bytes.below(4) {
         0 => Pace::Tobler,
         1 => Pace::Langmuir(mediant::Langmuir::default()),
