@@ -244,3 +244,21 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     files.sort();
     Ok(files)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn silence_ends_a_turn_by_time_alone() {
+        let begin = Instant::now();
+        let says = "echo '#2 INITED cov: 12 ft: 13 corp: 1/1b' >&2; exec sleep 600";
+        let mut child =
+            Command::new("sh").args(["-c", says]).stderr(Stdio::piped()).spawn().expect("a shell");
+        let lines = child.stderr.take().map(lines);
+        let (log, is_quiet) = watched(&mut child, lines.as_ref(), begin, Duration::from_millis(100));
+        assert!(is_quiet && !child.wait().expect("a process of our own").success());
+        assert!(begin.elapsed() < Duration::from_secs(300), "it slept to its end");
+        assert_eq!(log.turn(begin.elapsed(), 0).edges, 12);
+    }
+}

@@ -221,17 +221,33 @@ impl Run {
         }
     }
 
-    /// Ends between vertices.
+    /// Ends between vertices, of up to four queries: each takes a part of the time of an edit.
     pub(super) fn points(&mut self, bytes: &mut Bytes<'_>) {
-        let is_any = self.setup.k() == K::Any && self.setup.rules().placement() == PlacementKind::Corner;
+        for _ in 0..1 + bytes.below(4) {
+            let (from, to) = (self.place(bytes), self.place(bytes));
+            self.between_points(from, to);
+        }
+    }
+
+    /// A place in parts of a cell: at a vertex, at or beside the middle of an edge, or anywhere.
+    fn place(&self, bytes: &mut Bytes<'_>) -> (i64, i64) {
         let map = self.space.map();
-        let (width, height) = (i64::from(map.width()) * PARTS, i64::from(map.height()) * PARTS);
-        let mut coordinate = |end: i64| match bytes.byte() {
-            byte if byte < 96 => i64::from(byte % 8) * PARTS % (end + 1),
-            byte if byte < 160 => (i64::from(byte % 16) * PARTS / 2 + i64::from(byte & 1)) % (end + 1),
-            byte => (i64::from(byte) << 8 | i64::from(bytes.byte())) % (end + 1),
+        let mut coordinate = |cells: u32| {
+            let end = i64::from(cells) * PARTS;
+            match bytes.byte() {
+                byte if byte < 96 => i64::from(byte % 8) * PARTS % (end + 1),
+                // Lines from middle to middle pass through vertices exactly, and close by.
+                byte if byte < 160 => {
+                    (i64::from(byte % 16) * PARTS / 2 + i64::from(byte >> 6 & 1)) % (end + 1)
+                }
+                byte => (i64::from(byte) << 8 | i64::from(bytes.byte())) % (end + 1),
+            }
         };
-        let (from, to) = ((coordinate(width), coordinate(height)), (coordinate(width), coordinate(height)));
+        (coordinate(map.width()), coordinate(map.height()))
+    }
+
+    fn between_points(&mut self, from: (i64, i64), to: (i64, i64)) {
+        let is_any = self.setup.k() == K::Any && self.setup.rules().placement() == PlacementKind::Corner;
         self.say(&format!("path {from:?} {to:?}, in 1/{PARTS} of a cell"));
         let [start, goal] = [from, to].map(|(x, y)| Point::from_parts(x, y));
         let are_free = self.space.is_free(start) && self.space.is_free(goal);

@@ -10,13 +10,13 @@ mod stops;
 mod tables;
 mod wishes;
 
-use std::fmt::Write as _;
+use std::{cell::RefCell, fmt::Write as _, rc::Rc};
 
 use mediant::{
     Change, Engine, FiniteK, Goals, Index, K, Map, Motion, Path, Planner, Rectangle, Rules, Setup, Space,
     Vertex,
 };
-use mediant_grid::{CornerRule, Grid};
+use mediant_grid::{CornerRule, DiagonalGap, Grid};
 
 pub(crate) use self::wishes::NthLook;
 
@@ -25,6 +25,9 @@ use crate::bytes::Bytes;
 
 /// The most operations of a program.
 const MOST: usize = 12;
+
+/// The least first byte of a program that asks for paths between points alone, or nearly so.
+const POINTS: u8 = 224;
 
 /// An engine on a map, and the operations so far.
 struct Run {
@@ -43,9 +46,13 @@ struct Run {
 /// A map, an engine, and operations.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
+    let is_of_points = data.first().is_some_and(|&first| first >= POINTS);
+    if is_of_points {
+        bytes.byte();
+    }
     let grid = grid(&mut bytes);
-    let motion = motion(&mut bytes);
-    let setups: Vec<Setup> = Setup::all(motion).filter(|setup| takes_part(setup, motion)).collect();
+    let motion = if is_of_points { between_points(&mut bytes) } else { motion(&mut bytes) };
+    let setups = setups(motion, is_of_points);
     let which = usize::from(bytes.byte()) << 8 | usize::from(bytes.byte());
     let setup = setups[which % setups.len()];
     let space = setup.space(&Map::from(grid.clone())).expect("engines search these motions");
@@ -58,7 +65,7 @@ pub(crate) fn run(data: &[u8]) {
         if bytes.is_empty() {
             return;
         }
-        run.operation(&mut bytes);
+        if is_of_points && bytes.byte() < 240 { run.points(&mut bytes) } else { run.operation(&mut bytes) }
     }
 }
 
@@ -84,6 +91,34 @@ fn motion(bytes: &mut Bytes<'_>) -> Motion {
         number => K::Finite(FiniteK::new([2, 3, 4, 5, 3, 2, 6, 4][number]).expect("a k")),
     };
     Motion::new(k, rules)
+}
+
+/// A motion whose paths may begin and end at any point.
+fn between_points(bytes: &mut Bytes<'_>) -> Motion {
+    let gap = DiagonalGap::ALL[bytes.below(DiagonalGap::ALL.len())];
+    Motion::new(K::Any, Rules::Corner(gap))
+}
+
+type Setups = Rc<[Setup]>;
+
+/// The engines with their options that take part, found once for each motion; those that take any point, if
+/// it is asked for.
+fn setups(motion: Motion, take_points: bool) -> Setups {
+    thread_local! {
+        static KNOWN: RefCell<Vec<((Motion, bool), Setups)>> = const { RefCell::new(Vec::new()) };
+    }
+    KNOWN.with_borrow_mut(|known| {
+        if let Some((_, setups)) = known.iter().find(|(of, _)| *of == (motion, take_points)) {
+            return Rc::clone(setups);
+        }
+        let fits = |setup: &Setup| {
+            let of_points = [Engine::Anya, Engine::Subgoal].contains(&setup.engine.kind());
+            takes_part(setup, motion) && (of_points || !take_points)
+        };
+        let setups: Setups = Setup::all(motion).filter(fits).collect();
+        known.push(((motion, take_points), Rc::clone(&setups)));
+        setups
+    })
 }
 
 /// Where corners are always cut and k = 2, segments at any angle connect more than N(2).
