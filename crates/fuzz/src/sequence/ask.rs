@@ -236,10 +236,9 @@ impl Run {
             let end = i64::from(cells) * PARTS;
             match bytes.byte() {
                 byte if byte < 96 => i64::from(byte % 8) * PARTS % (end + 1),
-                // Lines from middle to middle pass through vertices exactly, and close by.
-                byte if byte < 160 => {
-                    (i64::from(byte % 16) * PARTS / 2 + i64::from(byte >> 6 & 1)) % (end + 1)
-                }
+                // Lines from middle to middle pass through vertices exactly; beside them, close by.
+                byte if byte < 144 => i64::from(byte % 16) * PARTS / 2 % (end + 1),
+                byte if byte < 160 => (i64::from(byte % 16) * PARTS / 2 + 1) % (end + 1),
                 byte => (i64::from(byte) << 8 | i64::from(bytes.byte())) % (end + 1),
             }
         };
