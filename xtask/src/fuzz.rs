@@ -30,7 +30,7 @@ use crate::Error;
 pub struct Options {
     /// The targets; all without any
     targets: Vec<String>,
-    /// The minutes of all targets together
+    /// The minutes of all targets together; 0 to keep what was found
     #[arg(long, value_name = "N", default_value = "10")]
     minutes: f64,
     /// Ends a target's turn when it has reached no new edge for so many minutes
@@ -72,11 +72,13 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let share = Duration::from_secs_f64(options.minutes * 60.0 / asked.len() as f64);
     let mut found = Vec::new();
     for name in asked {
-        let (turn, inputs) = program.turn(name, share, Duration::from_secs_f64(options.quiet * 60.0))?;
-        println!("{name}: {turn}");
-        found.extend(inputs);
-        if options.record {
-            record::add(name, &turn)?;
+        if !share.is_zero() {
+            let (turn, inputs) = program.turn(name, share, Duration::from_secs_f64(options.quiet * 60.0))?;
+            println!("{name}: {turn}");
+            found.extend(inputs);
+            if options.record {
+                record::add(name, &turn)?;
+            }
         }
         if options.keep {
             keep::keep(&program, name)?;
@@ -136,8 +138,10 @@ impl Fuzzer {
 
     /// The names of all targets, as the program tells them.
     fn targets(&self) -> Result<Vec<String>, Error> {
-        let output = Command::new(&self.program).env("MEDIANT_FUZZ", "?").arg("-runs=0").output();
-        let text = output.map_err(io(&self.program))?.stderr;
+        let mut command = self.command("?");
+        // It ends, which libFuzzer holds for a finding.
+        command.arg("-runs=0").arg(format!("-artifact_prefix={}/", self.folder.display()));
+        let text = command.output().map_err(io(&self.program))?.stderr;
         let text = String::from_utf8_lossy(&text);
         let names = text.lines().find_map(|line| line.split_once("MEDIANT_FUZZ is `?`: "));
         let names = names.map(|(_, names)| names.split(", ").map(str::to_owned).collect());

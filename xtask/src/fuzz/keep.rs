@@ -24,7 +24,7 @@ struct Input {
     bytes: u64,
     /// Whether a person can read it.
     is_text: bool,
-    /// Edges, by how often each is passed, as libFuzzer numbers them.
+    /// Edges, by how often each is passed, as libFuzzer numbers them: those that no smaller input reaches.
     features: Vec<u32>,
 }
 
@@ -74,7 +74,7 @@ fn reached(fuzzer: &Fuzzer, name: &str, kept: &Path) -> Result<Vec<Input>, Error
         }
     }
     let mut command = fuzzer.command(name);
-    command.arg("-set_cover_merge=1").arg(format!("-merge_control_file={}", reach.display()));
+    command.arg("-merge=1").arg(format!("-merge_control_file={}", reach.display()));
     command.args(["-max_len=4096", "-timeout=20"]).arg(merged.join("all")).arg(&small);
     let output = command.output().map_err(io(&fuzzer.program))?;
     if !output.status.success() {

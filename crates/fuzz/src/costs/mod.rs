@@ -98,7 +98,7 @@ impl Run {
     }
 
     fn operation(&mut self, bytes: &mut Bytes<'_>) {
-        match bytes.below(12) {
+        match bytes.below(14) {
             0..3 => self.edit(bytes),
             3 => self.prepare_anew(),
             4 => self.save_and_load(),
@@ -106,6 +106,8 @@ impl Run {
             6 => self.several_ends(bytes),
             7 => self.tolerance(bytes),
             8 | 9 => self.limits(bytes),
+            10 => self.table(bytes),
+            11 => self.stopped(bytes),
             _ => self.path(bytes),
         }
     }

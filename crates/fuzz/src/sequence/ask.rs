@@ -3,8 +3,8 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant::{
-    Answer, Exceptions, Field, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query, Vertex,
-    errors::QueryError,
+    Answer, ErrorCode, Exceptions, Field, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query,
+    Vertex, errors::QueryError,
 };
 
 use super::{
@@ -193,7 +193,7 @@ impl Run {
             // CHPA* alone gives up.
             Err(error) => {
                 let may = !matches!(self.guarantee(), Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle);
-                self.check(may && error.to_string().contains("gave up"), || error.to_string());
+                self.check(may && error.code() == ErrorCode::GaveUp, || error.to_string());
             }
         }
     }
