@@ -132,9 +132,9 @@ fn world(bytes: &mut Bytes<'_>) {
             let shift = if placement == PlacementKind::Center { 0.5 } else { 0.0 };
             let (column, row) = (at.x() + shift, at.y() + shift);
             assert!(column >= 0.0 && column <= f64::from(width) && row >= 0.0 && row <= f64::from(height));
-            // Far from the origin a cell is less than the last digit.
+            // Far from the origin a cell is less than the last digit; and so is a part of the least cells.
             let is_near = |number: f64| number.abs() < 1e6 * resolution;
-            if is_near(origin[0]) && is_near(origin[1]) && origin[2].abs() < 1e3 {
+            if resolution > 1e-300 && is_near(origin[0]) && is_near(origin[1]) && origin[2].abs() < 1e3 {
                 let (x, y) = frame.point_of(placement, at);
                 if let Some(again) = frame.place_at(placement, x, y) {
                     assert_eq!(again, at, "{frame:?}");

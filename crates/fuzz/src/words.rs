@@ -81,6 +81,10 @@ fn asked(call: &Call, engine: Engine) {
     let Ok(motion) = call.motion() else { return };
     let _ = call.check();
     let Ok(configured) = call.configured(engine) else { return };
+    // The tables of canonical search for a greater k take seconds, once a process.
+    if motion.k.finite().is_some_and(|k| k.get() > 6) {
+        return;
+    }
     let Ok(space) = MAP.space(motion) else { return };
     assert_eq!(space.motion(), motion);
     let Ok(mut planner) = space.planner(configured) else { return };
