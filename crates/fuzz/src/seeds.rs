@@ -42,10 +42,11 @@ pub fn seeds(target: &Target) -> Vec<Vec<u8>> {
     }
 }
 
-/// A program of points: the straight line between the middles of two cells passes a closed gap, and another
-/// way leads around. Few lines that are drawn meet a gap exactly.
+/// A program of points: lines between the middles of two cells pass a closed gap, others end there, and
+/// another way leads around. Few lines that are drawn meet a gap exactly.
 const PAST_A_GAP: &[u8] = &[
-    224, 0o123, 0, 0, 0, 0, 0, 0, 1, 0b10_0000, 1, 0, 0, 0, 0, 129, 131, 131, 133, 0, 0, 131, 133, 129, 131,
+    224, 0o123, 0, 0, 0, 0, 0, 0, 1, 0b10_0000, 1, 0, 0, 0, 3, 129, 131, 131, 133, 131, 133, 129, 131, 129,
+    131, 1, 2, 1, 2, 131, 133,
 ];
 
 /// Bytes of a seed.

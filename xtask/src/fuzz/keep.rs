@@ -58,8 +58,8 @@ fn remove(folder: &Path) -> Result<(), Error> {
     if folder.is_dir() { fs::remove_dir_all(folder).map_err(io(folder)) } else { Ok(()) }
 }
 
-/// The small inputs that were found or kept. libFuzzer's merge runs them from the smallest to the largest, and
-/// tells of each what no smaller one reaches. (Its cover of sets takes minutes for some thousand programs.)
+/// The small inputs that were found or kept. libFuzzer's merge runs them from the smallest to the largest,
+/// and tells of each what no smaller one reaches. (Its cover of sets takes minutes for thousands.)
 fn reached(fuzzer: &Fuzzer, name: &str, kept: &Path) -> Result<Vec<Input>, Error> {
     let merged = fuzzer.folder.join("merged").join(name);
     let (small, reach) = (merged.join("small"), merged.join("reach"));
