@@ -5,14 +5,17 @@
 //! the time is over, or when it was quiet: when it has reached no new edge of the code for so long. The
 //! record, `docs/proof/fuzzing.json`, adds up the executions, so that fuzzing goes on from day to day.
 
+mod keep;
 mod log;
 mod record;
 
 use std::{
     env, fs,
-    io::{BufRead, BufReader},
+    io::{BufRead, BufReader, Read},
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::{Child, Command, Stdio},
+    sync::mpsc::{self, Receiver, RecvTimeoutError},
+    thread,
     time::{Duration, Instant},
 };
 
@@ -27,7 +30,7 @@ use crate::Error;
 pub struct Options {
     /// The targets; all without any
     targets: Vec<String>,
-    /// The minutes of all targets together
+    /// The minutes of all targets together; 0 to keep what was found
     #[arg(long, value_name = "N", default_value = "10")]
     minutes: f64,
     /// Ends a target's turn when it has reached no new edge for so many minutes
@@ -36,16 +39,19 @@ pub struct Options {
     /// Add what ran to the record, docs/proof/fuzzing.json
     #[arg(long)]
     record: bool,
-    /// Keep some of the smallest inputs that reach something of their own, in crates/fuzz/corpus
+    /// Keep a few small inputs that together reach most, in crates/fuzz/corpus
     #[arg(long)]
     keep: bool,
+    /// Take the program as it was built last
+    #[arg(long)]
+    built: bool,
     /// Watch memory by a sanitizer of Rust: address, leak
     #[arg(long, value_name = "NAME", default_value = "none")]
     sanitizer: String,
 }
 
-/// The most inputs of a target that are kept, and the most bytes of each.
-const KEPT: (usize, u64) = (25, 600);
+/// From one look at the time to the next, where libFuzzer says nothing.
+const LOOK: Duration = Duration::from_secs(1);
 
 /// Runs the targets.
 ///
@@ -53,7 +59,7 @@ const KEPT: (usize, u64) = (25, 600);
 /// [`Error::Lacking`] without nightly Rust or cargo-fuzz; [`Error::Step`] if the program cannot be built;
 /// [`Error::Found`] for an input that a target treats wrongly, whose file is named; [`Error::Io`] for files.
 pub fn run(options: &Options) -> Result<(), Error> {
-    let program = Fuzzer::build(&options.sanitizer)?;
+    let program = if options.built { Fuzzer::built() } else { Fuzzer::build(&options.sanitizer)? };
     let known = program.targets()?;
     let asked = if options.targets.is_empty() { &known } else { &options.targets };
     if let Some(unknown) = asked.iter().find(|name| !known.contains(name)) {
@@ -66,14 +72,16 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let share = Duration::from_secs_f64(options.minutes * 60.0 / asked.len() as f64);
     let mut found = Vec::new();
     for name in asked {
-        let (turn, inputs) = program.turn(name, share, Duration::from_secs_f64(options.quiet * 60.0))?;
-        println!("{name}: {turn}");
-        found.extend(inputs);
-        if options.record {
-            record::add(name, &turn)?;
+        if !share.is_zero() {
+            let (turn, inputs) = program.turn(name, share, Duration::from_secs_f64(options.quiet * 60.0))?;
+            println!("{name}: {turn}");
+            found.extend(inputs);
+            if options.record {
+                record::add(name, &turn)?;
+            }
         }
         if options.keep {
-            program.keep(name)?;
+            keep::keep(&program, name)?;
         }
     }
     if found.is_empty() { Ok(()) } else { Err(Error::Found { files: found }) }
@@ -90,6 +98,14 @@ fn io(path: &Path) -> impl FnOnce(std::io::Error) -> Error + '_ {
 }
 
 impl Fuzzer {
+    /// The program that was built last, of these sources or of others.
+    fn built() -> Self {
+        let folder = root().join("target/fuzz");
+        let host = env::consts::ARCH;
+        let program = folder.join(format!("{host}-unknown-linux-gnu/release/targets"));
+        Self { program, folder }
+    }
+
     /// Builds it by `cargo fuzz`, which knows the flags of libFuzzer. The program is linked once.
     fn build(sanitizer: &str) -> Result<Self, Error> {
         let has = |arguments: &[&str]| {
@@ -105,27 +121,27 @@ impl Fuzzer {
         if !has(&["fuzz", "--version"]) {
             return Err(lacking("no cargo-fuzz", "cargo install cargo-fuzz --locked"));
         }
-        let folder = root().join("target/fuzz");
+        let fuzzer = Self::built();
         let mut command = Command::new("cargo");
-        command.current_dir(root().join("crates/fuzz")).env("CARGO_TARGET_DIR", &folder);
+        command.current_dir(root().join("crates/fuzz")).env("CARGO_TARGET_DIR", &fuzzer.folder);
         // Cargo has said to its own children which Rust it is.
         for name in ["CARGO", "RUSTUP_TOOLCHAIN", "RUSTFLAGS"] {
             command.env_remove(name);
         }
         command.args(["+nightly", "fuzz", "build", "--fuzz-dir", ".", "--features", "fuzzer"]);
-        command.args(["--sanitizer", sanitizer, "--target-dir"]).arg(&folder).arg("targets");
+        command.args(["--sanitizer", sanitizer, "--target-dir"]).arg(&fuzzer.folder).arg("targets");
         if !command.status().is_ok_and(|status| status.success()) {
             return Err(Error::Step { command: "cargo +nightly fuzz build".to_owned() });
         }
-        let host = env::consts::ARCH;
-        let program = folder.join(format!("{host}-unknown-linux-gnu/release/targets"));
-        Ok(Self { program, folder })
+        Ok(fuzzer)
     }
 
     /// The names of all targets, as the program tells them.
     fn targets(&self) -> Result<Vec<String>, Error> {
-        let output = Command::new(&self.program).env("MEDIANT_FUZZ", "?").arg("-runs=0").output();
-        let text = output.map_err(io(&self.program))?.stderr;
+        let mut command = self.command("?");
+        // It ends, which libFuzzer holds for a finding.
+        command.arg("-runs=0").arg(format!("-artifact_prefix={}/", self.folder.display()));
+        let text = command.output().map_err(io(&self.program))?.stderr;
         let text = String::from_utf8_lossy(&text);
         let names = text.lines().find_map(|line| line.split_once("MEDIANT_FUZZ is `?`: "));
         let names = names.map(|(_, names)| names.split(", ").map(str::to_owned).collect());
@@ -167,18 +183,8 @@ impl Fuzzer {
             .stdout(Stdio::null())
             .spawn()
             .map_err(io(&self.program))?;
-        let (mut log, mut is_quiet) = (Log::default(), false);
-        if let Some(lines) = child.stderr.take() {
-            for line in BufReader::new(lines).lines().map_while(Result::ok) {
-                log.line(&line, begin.elapsed());
-                // libFuzzer says how it is at each power of two of executions, and at each new edge.
-                is_quiet = log.is_quiet_for(quiet, begin.elapsed());
-                if is_quiet {
-                    let _ = child.kill();
-                    break;
-                }
-            }
-        }
+        let lines = child.stderr.take().map(lines);
+        let (log, is_quiet) = watched(&mut child, lines.as_ref(), begin, quiet);
         let status = child.wait().map_err(io(&self.program))?;
         let found: Vec<PathBuf> =
             files(&findings)?.into_iter().filter(|file| !before.contains(file)).collect();
@@ -192,32 +198,46 @@ impl Fuzzer {
         }
         Ok((log.turn(begin.elapsed(), found.len()), found))
     }
+}
 
-    /// Puts some of the smallest inputs that reach something of their own into the corpus that is kept.
-    fn keep(&self, name: &str) -> Result<(), Error> {
-        let (kept, merged) =
-            (root().join("crates/fuzz/corpus").join(name), self.folder.join("merged").join(name));
-        let _ = fs::remove_dir_all(&merged);
-        fs::create_dir_all(&merged).map_err(io(&merged))?;
-        let merge = self
-            .command(name)
-            .args(["-merge=1", "-max_len=600"])
-            .arg(&merged)
-            .arg(self.corpus(name))
-            .output();
-        merge.map_err(io(&self.program))?;
-        // libFuzzer takes the smallest first; the larger ones reach what these do not.
-        let mut inputs = files(&merged)?;
-        inputs.retain(|file| fs::metadata(file).is_ok_and(|about| about.len() <= KEPT.1));
-        inputs.sort_by_key(|file| (fs::metadata(file).map_or(0, |about| about.len()), file.clone()));
-        let every = inputs.len().div_ceil(KEPT.0).max(1);
-        let _ = fs::remove_dir_all(&kept);
-        fs::create_dir_all(&kept).map_err(io(&kept))?;
-        for file in inputs.iter().rev().step_by(every) {
-            let to = kept.join(file.file_name().unwrap_or_default());
-            fs::copy(file, &to).map_err(io(&to))?;
+/// Reads lines until there are none. libFuzzer may be silent for hours: it speaks at each power of two of
+/// executions, and at each input that reaches something new.
+fn lines(from: impl Read + Send + 'static) -> Receiver<String> {
+    let (sender, lines) = mpsc::channel();
+    thread::spawn(move || {
+        let lines = BufReader::new(from).lines().map_while(Result::ok);
+        lines.map(|line| sender.send(line)).take_while(Result::is_ok).for_each(drop);
+    });
+    lines
+}
+
+/// Sums up what libFuzzer says until it ends; asks it to end once it was quiet for so long, and says so.
+fn watched(
+    child: &mut Child,
+    lines: Option<&Receiver<String>>,
+    begin: Instant,
+    quiet: Duration,
+) -> (Log, bool) {
+    let (mut log, mut is_quiet) = (Log::default(), false);
+    let Some(lines) = lines else { return (log, is_quiet) };
+    loop {
+        match lines.recv_timeout(LOOK) {
+            Ok(line) => log.line(&line, begin.elapsed()),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return (log, is_quiet),
         }
-        Ok(())
+        if !is_quiet && log.is_quiet_for(quiet, begin.elapsed()) {
+            is_quiet = true;
+            end(child);
+        }
+    }
+}
+
+/// Asks a process to end. libFuzzer still tells how many inputs it has run then.
+fn end(child: &mut Child) {
+    let asked = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    if !asked.is_ok_and(|status| status.success()) {
+        let _ = child.kill();
     }
 }
 
@@ -227,4 +247,22 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     files.sort();
     Ok(files)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn silence_ends_a_turn_by_time_alone() {
+        let begin = Instant::now();
+        let says = "echo '#2 INITED cov: 12 ft: 13 corp: 1/1b' >&2; exec sleep 600";
+        let mut child =
+            Command::new("sh").args(["-c", says]).stderr(Stdio::piped()).spawn().expect("a shell");
+        let lines = child.stderr.take().map(lines);
+        let (log, is_quiet) = watched(&mut child, lines.as_ref(), begin, Duration::from_millis(100));
+        assert!(is_quiet && !child.wait().expect("a process of our own").success());
+        assert!(begin.elapsed() < Duration::from_secs(300), "it slept to its end");
+        assert_eq!(log.turn(begin.elapsed(), 0).edges, 12);
+    }
 }

@@ -14,6 +14,7 @@
 //! half an hour passes without a new edge, so that many would take days.
 
 mod bytes;
+mod costmaps;
 mod costs;
 mod indexes;
 mod maps;
@@ -25,6 +26,7 @@ mod seeds;
 mod sequence;
 mod serialized;
 mod target;
+mod walk;
 mod words;
 
 pub use seeds::{kept, seeds};

@@ -1,11 +1,11 @@
 //! Numbers of any size: costs, elevations, paces, places in the world, limits.
 
 use mediant::{
-    FiniteK, K, Limits, Map, Motion, Pace, PlacementKind, Point, Query, Rules, Space, WalkingBounds,
+    Costs, FiniteK, K, Limits, Map, Motion, Pace, PlacementKind, Point, Query, Rules, Space, WalkingBounds,
 };
 use mediant_formats::WorldFrame;
 
-use crate::bytes::Bytes;
+use crate::{bytes::Bytes, costmaps};
 
 /// Room for the rounding of costs to integers of 14 digits or more, by each move.
 const ROOM: f64 = 1e-3;
@@ -13,7 +13,8 @@ const ROOM: f64 = 1e-3;
 /// The first byte chooses what the numbers are.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
-    match bytes.below(4) {
+    match bytes.below(5) {
+        4 => costmaps::run(&mut bytes),
         0 => costs(&mut bytes),
         1 => walking(&mut bytes),
         2 => world(&mut bytes),
@@ -27,7 +28,8 @@ fn motion(bytes: &mut Bytes<'_>) -> (Map, Motion) {
     let cells = bytes.word();
     let map = Map::from_fn(width, height, |x, y| cells >> (4 * y + x) & 1 == 1).expect("a small map");
     let rules = Rules::ALL[bytes.below(Rules::ALL.len())];
-    let k = FiniteK::new(2 + bytes.below(7) as u32).expect("a k");
+    // A greater k has tables that take longer than all else.
+    let k = FiniteK::new([2, 3, 4, 3, 5, 4, 6, 8][bytes.below(8)]).expect("a k");
     (map, Motion::new(k, rules))
 }
 
@@ -38,7 +40,8 @@ fn costs(bytes: &mut Bytes<'_>) {
     let first = bytes.number();
     let numbers: Vec<f64> =
         (0..map.width() * map.height()).map(|_| if uniform { first } else { bytes.number() }).collect();
-    let Ok(costs) = map.costs(numbers) else { return };
+    let Ok(costs) = map.costs(numbers.iter().copied()) else { return };
+    are_kept(&costs, &numbers);
     let Ok(costs) = costs.with_cell_size(side.0, side.1) else { return };
     let (least, greatest) = costs.bounds();
     let Ok(space) = costs.space(motion) else { return };
@@ -48,6 +51,20 @@ fn costs(bytes: &mut Bytes<'_>) {
     between(&space, |path_cost, length| {
         path_cost >= least * length * (1.0 - ROOM) && path_cost <= greatest * length * (1.0 + ROOM)
     });
+}
+
+/// Costs that are integers are kept as they are, others are rounded once.
+fn are_kept(costs: &Costs, numbers: &[f64]) {
+    let width = costs.map().width() as i32;
+    let number =
+        |at: usize| costs.cost((at as i32 % width, at as i32 / width)).map(|kept| (kept, numbers[at]));
+    let all: Vec<(f64, f64)> = (0..numbers.len()).filter_map(number).collect();
+    let greatest = all.iter().map(|&(_, given)| given).fold(0.0, f64::max);
+    let are_integers = greatest <= f64::from(u32::MAX) && all.iter().all(|(_, given)| given.fract() == 0.0);
+    let room = if are_integers { 0.0 } else { greatest * 0.5_f64.powi(32) };
+    for (kept, given) in all {
+        assert!((kept - given).abs() <= room, "{given} is kept as {kept}, of up to {greatest}");
+    }
 }
 
 /// Times are positive, and those to a place and back as fields tell them as well.
@@ -82,13 +99,14 @@ fn walking(bytes: &mut Bytes<'_>) {
 }
 
 /// Asks for paths and for a field, and compares them.
-fn between(space: &Space, fits: impl Fn(f64, f64) -> bool) {
+pub(crate) fn between(space: &Space, fits: impl Fn(f64, f64) -> bool) {
     let (width, height) = (space.map().width() as i32, space.map().height() as i32);
     let ends = (0..=height).flat_map(|y| (0..=width).map(move |x| (x, y)));
     let Some(start) = ends.clone().find(|&at| space.is_free(at)) else { return };
     let field = space.field([start]).expect("a free source");
+    let mut planner = space.planner(space.engine()).expect("an engine that searches here");
     for goal in ends.filter(|&at| space.is_free(at)) {
-        let path = space.path(start, goal).expect("free ends");
+        let path = planner.path(start, goal).expect("free ends");
         let Some(path) = path else {
             assert_eq!(field.get(goal), None, "{start:?} to {goal:?}");
             continue;
@@ -114,9 +132,9 @@ fn world(bytes: &mut Bytes<'_>) {
             let shift = if placement == PlacementKind::Center { 0.5 } else { 0.0 };
             let (column, row) = (at.x() + shift, at.y() + shift);
             assert!(column >= 0.0 && column <= f64::from(width) && row >= 0.0 && row <= f64::from(height));
-            // Far from the origin a cell is less than the last digit.
+            // Far from the origin a cell is less than the last digit; and so is a part of the least cells.
             let is_near = |number: f64| number.abs() < 1e6 * resolution;
-            if is_near(origin[0]) && is_near(origin[1]) && origin[2].abs() < 1e3 {
+            if resolution > 1e-300 && is_near(origin[0]) && is_near(origin[1]) && origin[2].abs() < 1e3 {
                 let (x, y) = frame.point_of(placement, at);
                 if let Some(again) = frame.place_at(placement, x, y) {
                     assert_eq!(again, at, "{frame:?}");

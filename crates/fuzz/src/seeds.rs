@@ -29,16 +29,25 @@ pub fn seeds(target: &Target) -> Vec<Vec<u8>> {
         "ros" => ros(),
         "raster" => rasters().into_iter().map(|raster| [&[0], &raster[..]].concat()).collect(),
         "scenario" => scenarios(),
+        "questions" => questions(),
         "words" => words(),
         "serialized" => serialized(),
         "index" => (0..).zip(SAVED.iter()).map(|(at, saved)| [&[at], saved.payload()].concat()).collect(),
         "index-file" => {
             (0..).zip(SAVED.iter()).map(|(at, saved)| [&[at][..], &saved.whole()].concat()).collect()
         }
+        "sequence" => (0..24).map(drawn).chain([PAST_A_GAP.to_vec()]).collect(),
         // Any bytes are numbers, or a program.
         _ => (0..24).map(drawn).collect(),
     }
 }
+
+/// A program of points: lines between the middles of two cells pass a closed gap, others end there, and
+/// another way leads around. Few lines that are drawn meet a gap exactly.
+const PAST_A_GAP: &[u8] = &[
+    224, 0o123, 0, 0, 0, 0, 0, 0, 1, 0b10_0000, 1, 0, 0, 0, 3, 129, 131, 131, 133, 131, 133, 129, 131, 129,
+    131, 1, 2, 1, 2, 131, 133,
+];
 
 /// Bytes of a seed.
 fn drawn(seed: u64) -> Vec<u8> {
@@ -121,6 +130,24 @@ fn scenarios() -> Vec<Vec<u8>> {
             "\0version 2\npatch a.patch\nwidth 4\nheight 4\nP 1 0 0\nQ 0 0 3 3 4.24\nP 0 1 1\nQ 0 0 1 0 -1\n",
         ]),
     ]
+}
+
+fn questions() -> Vec<Vec<u8>> {
+    let run = "{\"type\":\"run\",\"engine\":\"jps\",\"k\":3,\"placement\":\"center\",\"corners\":\"never\",\
+               \"gap\":\"open\"}\n";
+    let edit = "{\"type\":\"edit\",\"x\":1,\"y\":2,\"rows\":[\"#.\",\"..\"],\"more\":true}\n";
+    let path = "{\"type\":\"query\",\"index\":0,\"path\":[[0,0],[1,1]],\"cost\":1.5}\n";
+    let query = "{\"type\":\"query\",\"start\":[0,0],\"goal\":[8,5]}\n";
+    let costs = "{\"type\":\"edit\",\"x\":0,\"y\":0,\"costs\":[[1.5,null]]}\n";
+    [
+        ("\0", [run, edit, path]),
+        ("\0", ["x,y\n", "3,4\n-5,4\n", "0.5,2\n"]),
+        ("\u{1}", ["x1,y1,x2,y2\n", "0,0,8,5\n", "1,1,3,4\n"]),
+        ("\u{2}", [query, edit, query]),
+        ("\u{2}", [edit, costs, query]),
+    ]
+    .map(|(what, lines)| [what, &lines.concat()].concat().into_bytes())
+    .to_vec()
 }
 
 fn words() -> Vec<Vec<u8>> {

@@ -43,11 +43,16 @@ pub const TARGETS: &[Target] = &[
         about: "scenarios, scenarios of maps that change, patches",
         run: scenarios::run,
     },
+    Target {
+        name: "questions",
+        about: "the program's files of paths, pairs, timelines: JSON lines and CSV",
+        run: mediant_fuzz_cli::read,
+    },
     Target { name: "words", about: "names, k, options, paces, setups, whole calls", run: words::run },
     Target { name: "serialized", about: "JSON and CBOR of all that serde reads", run: serialized::run },
     Target {
         name: "numbers",
-        about: "costs, elevations, paces, places in the world, limits",
+        about: "costs, costmaps, elevations, paces, places in the world, limits",
         run: numbers::run,
     },
     Target { name: "index-file", about: "saved indexes as whole files", run: indexes::run_file },

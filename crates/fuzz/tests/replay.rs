@@ -7,9 +7,26 @@ use mediant_oracle::Rng;
 
 /// Changed inputs of each seed and each kept input; of a program, which takes a thousand times as long,
 /// fewer.
-const CHANGES: (u64, u64) = (300, 30);
+const CHANGES: (u64, u64) = (300, 40);
 /// The most bytes of one kept input, and of all together: they are in the history for ever.
-const MOST_BYTES: (usize, usize) = (2048, 150_000);
+const MOST_BYTES: (usize, usize) = (1024, 600_000);
+/// The kept inputs of each target, as `cargo xtask fuzz --keep` tells: so none is left out unseen.
+const KEPT: &[(&str, usize)] = &[
+    ("sequence", 60),
+    ("sequence-costs", 60),
+    ("c-calls", 60),
+    ("map", 60),
+    ("picture", 60),
+    ("ros", 60),
+    ("raster", 60),
+    ("scenario", 60),
+    ("questions", 60),
+    ("words", 60),
+    ("serialized", 60),
+    ("numbers", 60),
+    ("index-file", 52),
+    ("index", 60),
+];
 
 fn times() -> u64 {
     let times = std::env::var("MEDIANT_GRIDS").ok();
@@ -64,6 +81,12 @@ fn inputs_and_changed_ones_are_treated_rightly() {
             }
         }
     }
+}
+
+#[test]
+fn all_kept_inputs_are_there() {
+    let found: Vec<_> = TARGETS.iter().map(|target| (target.name, kept(target).len())).collect();
+    assert_eq!(found, KEPT);
 }
 
 #[test]

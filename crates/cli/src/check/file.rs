@@ -110,10 +110,14 @@ impl RunLine {
 
 /// Reads a file with paths; `-` is stdin.
 pub(crate) fn read(path: &Path) -> Result<Vec<Entry>, Failure> {
-    let bytes = bytes(path)?;
+    parse(&bytes(path)?, path)
+}
+
+/// Reads the bytes of a file with paths.
+pub(crate) fn parse(bytes: &[u8], path: &Path) -> Result<Vec<Entry>, Failure> {
     let is_json = bytes.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{');
     let mut entries = Vec::new();
-    let read = if is_json { jsonl(&bytes, &mut entries) } else { csv(&bytes, &mut entries) };
+    let read = if is_json { jsonl(bytes, &mut entries) } else { csv(bytes, &mut entries) };
     read.map_err(|(line, problem)| Failure::PathFile { path: shown(path), line, problem })?;
     let has_path = entries.iter().any(|entry| matches!(entry, Entry::Path(_)));
     if has_path { Ok(entries) } else { Err(Failure::NoPaths { path: shown(path) }) }

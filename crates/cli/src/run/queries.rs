@@ -65,7 +65,7 @@ impl Queries {
         let every = args.every.map_or(1, usize::from);
         let limit = args.limit.map_or(usize::MAX, usize::from);
         if let Some(path) = &args.pairs {
-            let pairs = read_pairs(path, map, motion)?;
+            let pairs = read_pairs(&bytes(path)?, path, map, motion)?;
             return Ok(Self::Pairs { name: file_name(&shown(path)), pairs, every, limit });
         }
         if let Some(path) = &args.edits {
@@ -155,10 +155,14 @@ impl Queries {
 }
 
 /// Reads a CSV of pairs: a line `x1,y1,x2,y2` for each query.
-fn read_pairs(path: &Path, map: &NamedMap, motion: Motion) -> Result<Vec<PointEnds>, Failure> {
-    let bytes = bytes(path)?;
+pub(crate) fn read_pairs(
+    bytes: &[u8],
+    path: &Path,
+    map: &NamedMap,
+    motion: Motion,
+) -> Result<Vec<PointEnds>, Failure> {
     let mut pairs = Vec::new();
-    for (index, (line, text)) in lines(&bytes).enumerate() {
+    for (index, (line, text)) in lines(bytes).enumerate() {
         let wrong = |problem: String| Failure::PathFile { path: shown(path), line, problem };
         let text = std::str::from_utf8(text).map_err(|error| wrong(error.to_string()))?;
         let is_heading = index == 0 && text.starts_with(|letter: char| letter.is_alphabetic());

@@ -48,10 +48,14 @@ enum Line {
 impl Timeline {
     /// Reads the JSON lines of a file for a map; `-` is stdin.
     pub(crate) fn read(path: &Path, map: &NamedMap) -> Result<Self, Failure> {
-        let bytes = bytes(path)?;
+        Self::parse(&bytes(path)?, path, map)
+    }
+
+    /// Reads the JSON lines of a file's bytes for a map.
+    pub(crate) fn parse(bytes: &[u8], path: &Path, map: &NamedMap) -> Result<Self, Failure> {
         let mut last = LastCosts::new(map.costs.as_ref());
         let mut timeline = Self::default();
-        for (line, text) in lines(&bytes) {
+        for (line, text) in lines(bytes) {
             let wrong = |problem: String| Failure::PathFile { path: shown(path), line, problem };
             match serde_json::from_slice(text) {
                 Ok(Line::Edit(edit)) => {

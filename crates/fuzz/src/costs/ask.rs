@@ -3,7 +3,7 @@
 use mediant::{Answer, Field, Guarantee, Limit, Limits, Path, Query, Vertex, errors::QueryError};
 
 use super::{Run, known::ROOM};
-use crate::bytes::Bytes;
+use crate::{bytes::Bytes, sequence::NthLook};
 
 impl Run {
     /// A vertex on the map, or in a column left of it.
@@ -155,6 +155,44 @@ impl Run {
                 self.check_path(&path, &[(start, goal)]);
             }
             answer => self.check_answer(answer, &[(start, goal)]),
+        }
+    }
+
+    /// The costs of all paths from some starts to some goals.
+    pub(super) fn table(&mut self, bytes: &mut Bytes<'_>) {
+        let (starts, goals) = (self.free(bytes, 3), self.free(bytes, 3));
+        self.say(&format!("table {starts:?} {goals:?}"));
+        let table = self.index.table(starts.iter().copied(), goals.iter().copied());
+        let table = table.unwrap_or_else(|error| panic!("{error}\n{}", self.text));
+        for (row, &from) in starts.iter().enumerate() {
+            for (&cost, &to) in table.row(row).iter().zip(&goals) {
+                let (found, least) = (Some(cost).filter(|cost| cost.is_finite()), self.known.cost(from, to));
+                let is_right = match found.zip(least) {
+                    Some((found, least)) if !self.is_exact() => found <= least * (1.0 + ROOM),
+                    _ => found == least,
+                };
+                self.check(is_right, || format!("{from} to {to}: {found:?}, not {least:?}"));
+            }
+        }
+    }
+
+    /// A query that is stopped at the n-th look at its deadline, or answered as without one.
+    pub(super) fn stopped(&mut self, bytes: &mut Bytes<'_>) {
+        let (starts, goals, look) = (self.free(bytes, 2), self.free(bytes, 3), NthLook::new(bytes));
+        if starts.is_empty() {
+            return;
+        }
+        self.say(&format!("path {starts:?} {goals:?}, within {:?}", look.limits()));
+        let query = Query::between(starts, goals);
+        let answer = self.planner.find(query.clone().within(look.limits()));
+        let is_stopped = matches!(&answer, Ok(Answer::Stopped(stopped)) if stopped.by == Limit::Timeout);
+        self.check(is_stopped == look.is_heard(), || format!("heard: {}, {answer:?}", look.is_heard()));
+        match answer {
+            Ok(Answer::Stopped(stopped)) => self.check_legal(&stopped.best),
+            answer => {
+                let whole = self.planner.find(query);
+                self.check(answer == whole, || format!("{answer:?}, not {whole:?}"));
+            }
         }
     }
 

@@ -1,7 +1,8 @@
 //! Programs where cells have costs: edits, repairs, saved indexes, fields, and queries with wishes, in any
 //! order. Each answer is held to the oracle, whose costs are exact integrals.
 //!
-//! Any bytes are a program, as in `sequence`. Its text is in the message of a failure.
+//! Any bytes are a program, as in `sequence`; a first byte from 192 on means one on a map to walk on. The
+//! message of a failure has its text.
 
 mod ask;
 mod known;
@@ -13,12 +14,17 @@ use mediant_grid::Grid;
 use mediant_oracle::WeightedMap;
 
 use self::known::Known;
-use crate::bytes::Bytes;
+use crate::{bytes::Bytes, walk};
 
 /// The most operations of a program.
 const MOST: usize = 12;
+/// The least first byte of a program on a map to walk on.
+const WALKS: u8 = 192;
 /// The costs that cells have: few, so that paths tie, and great ones beside small ones.
 const WEIGHTS: [u32; 8] = [1, 1, 2, 3, 5, 40, 1000, 65_535];
+
+/// The k of programs. The tables of a great one take longer than all else, anew after each edit.
+pub(crate) const KS: [u32; 16] = [2, 3, 4, 5, 3, 2, 4, 3, 5, 4, 3, 2, 6, 4, 7, 8];
 
 /// An engine on a map, and the operations so far.
 struct Run {
@@ -39,9 +45,13 @@ struct Run {
 /// A map with costs, an engine, and operations.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
+    if data.first().is_some_and(|&first| first >= WALKS) {
+        bytes.byte();
+        return walk::run(&mut bytes);
+    }
     let map = map(&mut bytes);
     let rules = Rules::ALL[bytes.below(Rules::ALL.len())];
-    let k = FiniteK::new([2, 3, 4, 5, 3, 6, 7, 8][bytes.below(8)]).expect("a k");
+    let k = FiniteK::new(KS[bytes.below(KS.len())]).expect("a k");
     let engines: Vec<_> = Engine::ALL.into_iter().filter(|engine| engine.capabilities().costs).collect();
     let engine = engines[bytes.below(engines.len())];
     let motion = Motion::new(k, rules);
@@ -88,7 +98,7 @@ impl Run {
     }
 
     fn operation(&mut self, bytes: &mut Bytes<'_>) {
-        match bytes.below(12) {
+        match bytes.below(14) {
             0..3 => self.edit(bytes),
             3 => self.prepare_anew(),
             4 => self.save_and_load(),
@@ -96,6 +106,8 @@ impl Run {
             6 => self.several_ends(bytes),
             7 => self.tolerance(bytes),
             8 | 9 => self.limits(bytes),
+            10 => self.table(bytes),
+            11 => self.stopped(bytes),
             _ => self.path(bytes),
         }
     }
@@ -123,11 +135,13 @@ impl Run {
         self.known = Known::new(map, &costs, self.motion.rules, self.k);
         // A path without a segment has none that is not legal: its cost is 0 wherever it stands.
         if let Some(path) = self.path.take().filter(|path| path.waypoints().len() > 1) {
+            // A cost is that of the segments, also where they meet at a closed gap: that is asked by `check`.
             let (told, expected) = (self.space.cost(&path), self.known.measured(&path));
-            let is_same = match (told, expected) {
-                (Some(told), Some(expected)) => (told - expected).abs() <= known::ROOM * expected,
-                (told, expected) => told == expected,
-            };
+            let holds = self.space.check(&path).is_ok();
+            self.check(holds == expected.is_some(), || format!("{path} holds: {holds}"));
+            let is_same = expected.is_none_or(|expected| {
+                told.is_some_and(|told| (told - expected).abs() <= known::ROOM * expected)
+            });
             self.check(is_same, || format!("{path} costs {told:?}, not {expected:?}"));
         }
         if let Some((field, sources)) = self.field.take() {

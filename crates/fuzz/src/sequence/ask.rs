@@ -3,8 +3,8 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant::{
-    Answer, Exceptions, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query, Vertex,
-    errors::QueryError,
+    Answer, ErrorCode, Exceptions, Field, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query,
+    Vertex, errors::QueryError,
 };
 
 use super::{
@@ -18,14 +18,14 @@ const PARTS: i64 = 1024;
 
 impl Run {
     /// A vertex on the map, or in one of eight just outside.
-    fn vertex(&self, bytes: &mut Bytes<'_>) -> Vertex {
+    pub(super) fn vertex(&self, bytes: &mut Bytes<'_>) -> Vertex {
         let (width, height) = self.known.size();
         let at = Vertex::new(bytes.below(width as usize) as i32, bytes.below(height as usize) as i32);
         if bytes.byte() >= 224 { Vertex::new(at.x - width, at.y) } else { at }
     }
 
     /// Some free vertices; none if there is none.
-    fn free(&self, bytes: &mut Bytes<'_>, most: usize) -> Vec<Vertex> {
+    pub(super) fn free(&self, bytes: &mut Bytes<'_>, most: usize) -> Vec<Vertex> {
         let free = self.known.free();
         if free.is_empty() {
             return Vec::new();
@@ -34,12 +34,12 @@ impl Run {
         (0..count).map(|_| free[bytes.below(free.len())]).collect()
     }
 
-    fn guarantee(&self) -> Guarantee {
+    pub(super) fn guarantee(&self) -> Guarantee {
         self.planner.guarantee()
     }
 
     /// Checks a path that was found between some of these ends.
-    fn check_path(&mut self, path: &Path, pairs: &[(Vertex, Vertex)]) {
+    pub(super) fn check_path(&mut self, path: &Path, pairs: &[(Vertex, Vertex)]) {
         let ends = path.waypoints().first().copied().zip(path.waypoints().last().copied());
         self.check(ends.is_some_and(|ends| pairs.contains(&ends)), || format!("{path}: other ends"));
         self.check(self.known.holds(path), || format!("{path} is not legal"));
@@ -50,7 +50,7 @@ impl Run {
     }
 
     /// Checks an answer without limits between some of these ends, which are free.
-    fn check_answer(&mut self, answer: Result<Answer, QueryError>, pairs: &[(Vertex, Vertex)]) {
+    pub(super) fn check_answer(&mut self, answer: Result<Answer, QueryError>, pairs: &[(Vertex, Vertex)]) {
         let is_reachable = pairs.iter().any(|&(from, to)| self.known.cost(from, to).is_some());
         match answer {
             Ok(Answer::Found(path)) => self.check_path(&path, pairs),
@@ -193,7 +193,7 @@ impl Run {
             // CHPA* alone gives up.
             Err(error) => {
                 let may = !matches!(self.guarantee(), Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle);
-                self.check(may && error.to_string().contains("gave up"), || error.to_string());
+                self.check(may && error.code() == ErrorCode::GaveUp, || error.to_string());
             }
         }
     }
@@ -206,6 +206,10 @@ impl Run {
         }
         self.say(&format!("field {sources:?}"));
         let field = self.space.field(sources.iter().copied()).expect("free sources");
+        self.check_field(&field, &sources);
+    }
+
+    pub(super) fn check_field(&self, field: &Field, sources: &[Vertex]) {
         for at in self.known.free() {
             let least = sources.iter().filter_map(|&from| self.known.cost(from, at)).min_by(f64::total_cmp);
             let found = field.get(at);
@@ -217,17 +221,32 @@ impl Run {
         }
     }
 
-    /// Ends between vertices.
+    /// Ends between vertices, of up to four queries: each takes a part of the time of an edit.
     pub(super) fn points(&mut self, bytes: &mut Bytes<'_>) {
-        let is_any = self.setup.k() == K::Any && self.setup.rules().placement() == PlacementKind::Corner;
+        for _ in 0..1 + bytes.below(4) {
+            let (from, to) = (self.place(bytes), self.place(bytes));
+            self.between_points(from, to);
+        }
+    }
+
+    /// A place in parts of a cell: at a vertex, at or beside the middle of an edge, or anywhere.
+    fn place(&self, bytes: &mut Bytes<'_>) -> (i64, i64) {
         let map = self.space.map();
-        let (width, height) = (i64::from(map.width()) * PARTS, i64::from(map.height()) * PARTS);
-        let mut coordinate = |end: i64| match bytes.byte() {
-            byte if byte < 96 => i64::from(byte % 8) * PARTS % (end + 1),
-            byte if byte < 160 => (i64::from(byte % 16) * PARTS / 2 + i64::from(byte & 1)) % (end + 1),
-            byte => (i64::from(byte) << 8 | i64::from(bytes.byte())) % (end + 1),
+        let mut coordinate = |cells: u32| {
+            let end = i64::from(cells) * PARTS;
+            match bytes.byte() {
+                byte if byte < 96 => i64::from(byte % 8) * PARTS % (end + 1),
+                // Lines from middle to middle pass through vertices exactly; beside them, close by.
+                byte if byte < 144 => i64::from(byte % 16) * PARTS / 2 % (end + 1),
+                byte if byte < 160 => (i64::from(byte % 16) * PARTS / 2 + 1) % (end + 1),
+                byte => (i64::from(byte) << 8 | i64::from(bytes.byte())) % (end + 1),
+            }
         };
-        let (from, to) = ((coordinate(width), coordinate(height)), (coordinate(width), coordinate(height)));
+        (coordinate(map.width()), coordinate(map.height()))
+    }
+
+    fn between_points(&mut self, from: (i64, i64), to: (i64, i64)) {
+        let is_any = self.setup.k() == K::Any && self.setup.rules().placement() == PlacementKind::Corner;
         self.say(&format!("path {from:?} {to:?}, in 1/{PARTS} of a cell"));
         let [start, goal] = [from, to].map(|(x, y)| Point::from_parts(x, y));
         let are_free = self.space.is_free(start) && self.space.is_free(goal);

@@ -71,6 +71,11 @@ impl Known {
         self.over(self.setup.paths(), from, to)
     }
 
+    /// The least cost of the paths that the engine finds between some of these ends.
+    pub(super) fn best(&self, pairs: &[(Vertex, Vertex)]) -> Option<f64> {
+        pairs.iter().filter_map(|&(from, to)| self.least(from, to)).min_by(f64::total_cmp)
+    }
+
     /// The least cost between two points, in parts of a cell.
     pub(super) fn between_points(&self, from: (i64, i64), to: (i64, i64)) -> Option<f64> {
         let Rules::Corner(gap) = self.rules() else { return None };
@@ -114,7 +119,9 @@ impl Known {
         let best = |cost: &dyn Fn(Vertex, Vertex) -> Option<f64>| {
             pairs.iter().filter_map(|&(from, to)| cost(from, to)).min_by(f64::total_cmp)
         };
-        let Some(least) = best(&|from, to| self.least(from, to)) else { return false };
+        // Another engine than the own one may have answered, over N(k).
+        let paths = if let Guarantee::Optimal(k) = guarantee { K::Finite(k) } else { self.setup.paths() };
+        let Some(least) = best(&|from, to| self.over(paths, from, to)) else { return false };
         let is_not_below = cost >= least * (1.0 - ROOM);
         match guarantee {
             Guarantee::Optimal(_) | Guarantee::OptimalAnyAngle => {

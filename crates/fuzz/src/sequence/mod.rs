@@ -6,19 +6,28 @@
 
 mod ask;
 mod known;
+mod stops;
+mod tables;
+mod wishes;
 
-use std::fmt::Write as _;
+use std::{cell::RefCell, fmt::Write as _, rc::Rc};
 
 use mediant::{
-    Engine, FiniteK, Index, K, Map, Motion, Path, Planner, Rectangle, Rules, Setup, Space, Vertex,
+    Change, Engine, FiniteK, Goals, Index, K, Map, Motion, Path, Planner, Rectangle, Rules, Setup, Space,
+    Vertex,
 };
-use mediant_grid::{CornerRule, Grid};
+use mediant_grid::{CornerRule, DiagonalGap, Grid};
+
+pub(crate) use self::wishes::NthLook;
 
 use self::known::Known;
 use crate::bytes::Bytes;
 
 /// The most operations of a program.
 const MOST: usize = 12;
+
+/// The least first byte of a program that asks for paths between points alone, or nearly so.
+const POINTS: u8 = 224;
 
 /// An engine on a map, and the operations so far.
 struct Run {
@@ -29,15 +38,21 @@ struct Run {
     known: Known,
     /// The last path that was found.
     path: Option<Path>,
+    /// Goals that were prepared, perhaps for the map before an edit.
+    goals: Option<Goals>,
     text: String,
 }
 
 /// A map, an engine, and operations.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
+    let is_of_points = data.first().is_some_and(|&first| first >= POINTS);
+    if is_of_points {
+        bytes.byte();
+    }
     let grid = grid(&mut bytes);
-    let motion = motion(&mut bytes);
-    let setups: Vec<Setup> = Setup::all(motion).filter(|setup| takes_part(setup, motion)).collect();
+    let motion = if is_of_points { between_points(&mut bytes) } else { motion(&mut bytes) };
+    let setups = setups(motion, is_of_points);
     let which = usize::from(bytes.byte()) << 8 | usize::from(bytes.byte());
     let setup = setups[which % setups.len()];
     let space = setup.space(&Map::from(grid.clone())).expect("engines search these motions");
@@ -45,12 +60,12 @@ pub(crate) fn run(data: &[u8]) {
     let planner = index.planner();
     let known = Known::new(grid, setup);
     let text = format!("{setup}\n{}", drawn(known.grid()));
-    let mut run = Run { setup, space, index, planner, known, path: None, text };
+    let mut run = Run { setup, space, index, planner, known, path: None, goals: None, text };
     for _ in 0..MOST {
         if bytes.is_empty() {
             return;
         }
-        run.operation(&mut bytes);
+        if is_of_points && bytes.byte() < 240 { run.points(&mut bytes) } else { run.operation(&mut bytes) }
     }
 }
 
@@ -71,11 +86,39 @@ fn grid(bytes: &mut Bytes<'_>) -> Grid {
 fn motion(bytes: &mut Bytes<'_>) -> Motion {
     let rules = Rules::ALL[bytes.below(Rules::ALL.len())];
     let k = match bytes.below(8) {
-        7 if matches!(rules, Rules::Corner(_)) => K::Any,
+        5.. if matches!(rules, Rules::Corner(_)) => K::Any,
         // The tables of canonical search for a greater k take seconds, once a process.
         number => K::Finite(FiniteK::new([2, 3, 4, 5, 3, 2, 6, 4][number]).expect("a k")),
     };
     Motion::new(k, rules)
+}
+
+/// A motion whose paths may begin and end at any point.
+fn between_points(bytes: &mut Bytes<'_>) -> Motion {
+    let gap = DiagonalGap::ALL[bytes.below(DiagonalGap::ALL.len())];
+    Motion::new(K::Any, Rules::Corner(gap))
+}
+
+type Setups = Rc<[Setup]>;
+
+/// The engines with their options that take part, found once for each motion; those that take any point, if
+/// it is asked for.
+fn setups(motion: Motion, take_points: bool) -> Setups {
+    thread_local! {
+        static KNOWN: RefCell<Vec<((Motion, bool), Setups)>> = const { RefCell::new(Vec::new()) };
+    }
+    KNOWN.with_borrow_mut(|known| {
+        if let Some((_, setups)) = known.iter().find(|(of, _)| *of == (motion, take_points)) {
+            return Rc::clone(setups);
+        }
+        let fits = |setup: &Setup| {
+            let of_points = [Engine::Anya, Engine::Subgoal].contains(&setup.engine.kind());
+            takes_part(setup, motion) && (of_points || !take_points)
+        };
+        let setups: Setups = Setup::all(motion).filter(fits).collect();
+        known.push(((motion, take_points), Rc::clone(&setups)));
+        setups
+    })
 }
 
 /// Where corners are always cut and k = 2, segments at any angle connect more than N(2).
@@ -107,7 +150,7 @@ impl Run {
     }
 
     fn operation(&mut self, bytes: &mut Bytes<'_>) {
-        match bytes.below(16) {
+        match bytes.below(24) {
             0 | 1 => self.edit(bytes),
             2 => self.prepare_anew(),
             3 => self.save_and_load(),
@@ -118,7 +161,14 @@ impl Run {
             9 => self.tolerance(bytes),
             10 | 11 => self.limits(bytes),
             12 => self.points(bytes),
-            _ => self.path(bytes),
+            13 | 14 if self.setup.k() == K::Any => self.points(bytes),
+            13..16 => self.path(bytes),
+            16 => self.stopped(bytes),
+            17 => self.table(bytes),
+            18 => self.goals(bytes),
+            19 => self.earlier_goals(bytes),
+            20 => self.mistake(bytes),
+            _ => self.wish(bytes),
         }
     }
 
@@ -147,14 +197,20 @@ impl Run {
         let cells = self.cells(bytes);
         self.say(&format!("edit {cells:?}"));
         let change = self.space.edit_cells(cells.iter().copied()).expect("cells of the map");
-        self.index = self.index.repair(&change).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
-        self.space = change.after().clone();
+        self.follow(&change, &cells);
         if bytes.byte() < 64 {
             self.say("finish");
             self.index = self.index.finish().unwrap_or_else(|error| panic!("{error}\n{}", self.text));
+            self.planner.follow(&self.index).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
         }
+    }
+
+    /// All that was prepared follows a change of some cells, and so does the oracle.
+    fn follow(&mut self, change: &Change, cells: &[(Vertex, bool)]) {
+        self.index = self.index.repair(change).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
+        self.space = change.after().clone();
         self.planner.follow(&self.index).unwrap_or_else(|error| panic!("{error}\n{}", self.text));
-        self.known = Known::new(known::edited(self.known.grid(), &cells), self.setup);
+        self.known = Known::new(known::edited(self.known.grid(), cells), self.setup);
         let id = Map::from(self.known.grid().clone()).id();
         self.check(self.space.map().id() == id, || "the edited map is another one".to_owned());
         if let Some(path) = self.path.take() {

@@ -111,7 +111,7 @@ impl NamedMap {
     }
 
     /// A map of which nothing more is known.
-    fn plain(name: String, grid: Arc<Grid>) -> Self {
+    pub(crate) fn plain(name: String, grid: Arc<Grid>) -> Self {
         Self {
             name,
             ground: Arc::clone(&grid),
