@@ -1,15 +1,15 @@
 //! `cargo xtask mutants`: do the tests notice when the code is changed?
 //!
-//! cargo-mutants lists small changes of the code, the mutants: another operator, another value of a function, no
-//! arm of a match. A test has to fail for each.
+//! cargo-mutants lists small changes of the code, the mutants: another operator, another value of a function,
+//! no arm of a match. A test has to fail for each.
 //!
 //! **The key decision: all mutants are compiled at once.** Compiling each alone, as cargo-mutants does, takes
-//! ten seconds, and there are thousands. So all are put into a copy of the sources, each behind a question for
-//! the active mutant (`schema`), and one number in the environment makes it active. Each test is run once to see
-//! to which mutants it comes; a mutant is tried by these tests alone, the shortest first.
+//! ten seconds, and there are thousands. So all are put into a copy of the sources, each behind a question
+//! for the active mutant (`schema`), and one number in the environment makes it active. Each test is run once
+//! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first.
 //!
-//! Outcomes are kept in `target/mutants`, so that a run goes on where it was; `--again` tries those that survived
-//! with the tests of today. The record is `docs/proof/mutants.json`. Each survivor is explained in
+//! Outcomes are kept in `target/mutants`, so that a run goes on where it was; `--again` tries those that
+//! survived with the tests of today. The record is `docs/proof/mutants.json`. Each survivor is explained in
 //! `mutants/explained.json`, or the run says that it is not.
 
 mod list;
@@ -77,8 +77,9 @@ struct Tried {
 /// Tries mutants.
 ///
 /// # Errors
-/// [`Error::Lacking`] without cargo-mutants, or for a group that is none; [`Error::Step`] if the copy cannot be
-/// compiled; [`Error::Survivors`] for mutants that survive, and are not explained; [`Error::Io`] for files.
+/// [`Error::Lacking`] without cargo-mutants, or for a group that is none; [`Error::Step`] if the copy cannot
+/// be compiled; [`Error::Survivors`] for mutants that survive, and are not explained; [`Error::Io`] for
+/// files.
 pub fn run(options: &Options) -> Result<(), Error> {
     let groups: Vec<&str> = list::groups().collect();
     if let Some(unknown) = options.groups.iter().find(|name| !groups.contains(&&***name)) {

@@ -18,8 +18,8 @@ use std::{
 /// it has made and returns [`Interrupted`]; nothing goes on on other threads. Unused, an interrupt costs a
 /// test of two pointers a row.
 ///
-/// **Memory** that grows with the map is asked for before it is taken. Where there is no room for it, the work
-/// ends as if it were stopped, by [`StoppedBy::Memory`].
+/// **Memory** that grows with the map is asked for before it is taken. Where there is no room for it, the
+/// work ends as if it were stopped, by [`StoppedBy::Memory`].
 ///
 /// **Progress** goes the other way along with it: some work tells its [listener](Self::progress), if there is
 /// one, how far it is.

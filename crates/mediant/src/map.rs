@@ -231,8 +231,8 @@ impl Map {
         Ok(self.after(|change| change.edit(at, blocked)))
     }
 
-    /// Checks that a rectangle does not lie outside the map as a whole, and that there is room for the list of
-    /// what changes in it.
+    /// Checks that a rectangle does not lie outside the map as a whole, and that there is room for the list
+    /// of what changes in it.
     pub(crate) fn check_edit(&self, at: Rectangle) -> Result<(), Error> {
         let size = self.id().size();
         if at.x >= size.0 || at.y >= size.1 {

@@ -44,7 +44,7 @@ pub(super) struct Mutant {
     pub(super) replacement: String,
     /// In words, what is changed, and in what function.
     pub(super) change: String,
-    /// What is reported together.
+    /// The row of the record in which it counts.
     pub(super) group: &'static str,
 }
 
@@ -55,7 +55,7 @@ impl Mutant {
     }
 }
 
-/// What cargo-mutants says of one.
+/// The words of cargo-mutants for one.
 #[derive(Debug, Deserialize)]
 struct Listed {
     file: String,

@@ -1,9 +1,12 @@
 //! A source text with all its mutants in it, of which at most one is active when it runs.
 //!
-//! An expression `a < b` becomes
-//! `(match ::mutant::at(7) { 7 => a == b, 8 => a > b, _ => a < b })`. The mutants' arms hold the text as it was:
-//! since one mutant at most is active, those of its parts need no place in them. So nothing is moved, borrowed
-//! or evaluated otherwise than before, and the text grows by its depth at most.
+//! An expression `a < b` becomes the following. The mutants' arms hold the text as it was: since one mutant
+//! at most is active, those of its parts need no place in them. So nothing is moved, borrowed or evaluated
+//! otherwise than before, and the text grows by its depth at most.
+//!
+//! ```text
+//! (match ::mutant::at(7) { 7 => { (a) == (b) } 8 => { (a) > (b) } _ => (a < b)})
+//! ```
 
 use std::{
     cmp::Reverse,
@@ -169,8 +172,8 @@ fn pattern_and_guard(arm: &Arm) -> (&Pat, Option<&Expr>) {
     }
 }
 
-/// Whether a type is of the kind `impl Trait`: a function returns one type of this kind, so that no mutant can
-/// return another.
+/// Whether a type is of the kind `impl Trait`: a function returns one type of this kind, so that no mutant
+/// can return another.
 fn is_impl(output: &ReturnType) -> bool {
     struct Finder(bool);
     impl<'ast> Visit<'ast> for Finder {
@@ -216,8 +219,8 @@ impl<'ast> Visit<'ast> for Writer<'_> {
             let mutants = self.take(Genre::Arm, pattern_and_guard(arm).0.span());
             deleted.extend(mutants.first().map(|mutant| (number, mutant.id)));
         }
-        // One place for all arms, from the beginning to the end of the match: where an arm may not be missing, the
-        // compiler says so of the whole.
+        // One place for all arms, from the beginning to the end of the match: where an arm may not be
+        // missing, the compiler says so of the whole.
         let place = deleted.first().map(|(_, id)| (self.next_site(), *id));
         let range = expr.span().byte_range();
         if let Some((site, _)) = place {

@@ -121,7 +121,8 @@ impl Copy {
         Ok(schema)
     }
 
-    /// Checks the libraries with their tests, and leaves out the mutants in which errors are. Gives the number of errors.
+    /// Checks the libraries with their tests, and leaves out the mutants in which errors are. Gives the
+    /// number of errors.
     fn faults(&self, of: &BTreeMap<&str, Schema>, left_out: &mut BTreeSet<u32>) -> Result<usize, Error> {
         let messages = self.cargo(&["check", "--lib", "--tests", "--keep-going"])?;
         let mut faults = 0;
@@ -224,13 +225,13 @@ fn errors(messages: &[Value]) -> impl Iterator<Item = &Value> {
     of_compiler.filter(|message| message.get("level").and_then(Value::as_str) == Some("error"))
 }
 
-/// Leaves out the mutant at a place where the compiler found a fault; or all mutants of the site, where the fault
-/// is in what all of them share.
+/// Leaves out the mutant at a place where the compiler found a fault; or all mutants of the site, where the
+/// fault is in what all of them share.
 fn leave_out(span: &Value, of: &BTreeMap<&str, Schema>, left_out: &mut BTreeSet<u32>) {
     let number = |name: &str| span.get(name).and_then(Value::as_u64).unwrap_or(0) as usize;
     let file = span.get("file_name").and_then(Value::as_str).unwrap_or_default();
     let (start, end) = (number("byte_start"), number("byte_end"));
-    // What a macro became is in another file.
+    // The text of a macro is in another file.
     if let Some(outer) = span.get("expansion").and_then(|expansion| expansion.get("span")) {
         leave_out(outer, of, left_out);
     }

@@ -30,7 +30,7 @@ pub(super) enum Outcome {
     Survived(f64, bool),
 }
 
-/// What trials share.
+/// The programs and tests that all trials share.
 pub(super) struct Bench<'a> {
     pub(super) programs: &'a [Program],
     /// The shortest first.

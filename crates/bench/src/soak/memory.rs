@@ -3,9 +3,9 @@
 //! Measured is what stays when all maps, indexes and planners of a round are dropped.
 //!
 //! **The key decision: what is judged is the number of allocated bytes, not of resident ones.** The first is
-//! exact, so that a leak of some kilobytes in an hour is seen. Of what is freed an allocator keeps as much as it
-//! wants: with glibc's defaults the resident memory grew from 20 to 69 MB in 12.5 minutes, and stayed at 11 MB
-//! with one arena and low thresholds. It is told, but not judged.
+//! exact, so that a leak of some kilobytes in an hour is seen. Of what is freed an allocator keeps as much as
+//! it wants: with glibc's defaults the resident memory grew from 20 to 69 MB in 12.5 minutes, and stayed at
+//! 11 MB with one arena and low thresholds. It is told, but not judged.
 
 use std::{alloc::System, fs};
 
@@ -14,15 +14,16 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
 /// The allocator whose bytes are counted, for a program to name as its own.
 pub static COUNTED: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// The bytes by which the last quarter's median may be above the second's: queues of threads, tables of motions.
+/// The bytes by which the last quarter's median may be above the second's: queues of threads, tables of
+/// motions.
 const ROOM: f64 = (16 << 10) as f64;
 
 /// Memory after a round, in bytes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Memory {
-    /// What is allocated; 0 in a program whose allocator is not [`COUNTED`].
+    /// Allocated bytes; 0 in a program whose allocator is not [`COUNTED`].
     pub(super) allocated: u64,
-    /// What is resident; `None` where the system does not tell.
+    /// Resident bytes; `None` where the system does not tell.
     pub(super) resident: Option<u64>,
 }
 
@@ -51,8 +52,8 @@ pub(super) fn quarters(samples: &[u64]) -> Option<[f64; 4]> {
     Some(medians)
 }
 
-/// Whether allocated memory is flat: the median of the last quarter is at most a little above the second's. The
-/// first counts for nothing: what a process makes once is made there.
+/// Whether allocated memory is flat: the median of the last quarter is at most a little above the second's.
+/// The first counts for nothing: what a process makes once is made there.
 pub(super) fn is_flat(quarters: &[f64; 4]) -> bool {
     quarters[3] <= quarters[1] + ROOM
 }

@@ -61,8 +61,8 @@ impl ArcLists {
         (0..self.len()).map(|id| &self[id])
     }
 
-    /// Asks for the memory of the next list: of a longer one, if this one may soon be full, else of one without
-    /// the room that is given up.
+    /// Asks for the memory of the next list: of a longer one, if this one may soon be full, else of one
+    /// without the room that is given up.
     pub(super) fn check_room(&self, during: &'static str) -> Result<(), Interrupted> {
         let (length, capacity) = (self.arcs.len(), self.arcs.capacity());
         let is_wide = capacity - length > length / 2 + SMALL;
