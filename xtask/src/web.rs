@@ -43,13 +43,13 @@ const MODULES: [Module; 2] = [
         folder: "",
         profile: "web",
         features: &[],
-        most: (1_106_000, "the page is to be there within a second"),
+        most: (1_118_000, "the page is to be there within a second"),
     },
     Module {
         folder: "light",
         profile: "web-light",
         features: &["--no-default-features"],
-        most: (292_000, "games load it before they begin"),
+        most: (294_500, "games load it before they begin"),
     },
 ];
 
