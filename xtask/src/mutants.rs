@@ -40,7 +40,7 @@ use sha2::{Digest, Sha256};
 use self::{
     list::{Mutant, mutants},
     suite::Test,
-    tree::{Built, Copy},
+    tree::{Built, MutatedProject},
     trial::{Bench, Outcome},
 };
 use crate::Error;
@@ -88,8 +88,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     let until = options.minutes.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
     let mutants = mutants()?;
-    let copy = Copy::new(&mutants)?;
-    let built = copy.build(&mutants)?;
+    let project = MutatedProject::new(&mutants)?;
+    let built = project.build(&mutants)?;
     let folder = root().join("target/mutants");
     let tests = tests(&built, &folder, options.threads)?;
     let file = folder.join(format!("outcomes-{}.jsonl", sources(&mutants)?));

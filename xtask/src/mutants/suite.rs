@@ -29,7 +29,7 @@ pub(super) struct Test {
     pub(super) places: BTreeSet<u32>,
 }
 
-/// How a run of tests ended.
+/// The end of a run of tests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum End {
     Passed,

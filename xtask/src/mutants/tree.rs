@@ -28,7 +28,7 @@ const RUNTIME_MANIFEST: &str = "[package]\nname = \"mutant\"\nversion = \"0.0.0\
 const MUTATED: [&str; 6] = ["moves", "grid", "search", "subgoal", "hierarchy", "costs"];
 
 /// The copy.
-pub(super) struct Copy {
+pub(super) struct MutatedProject {
     pub(super) folder: PathBuf,
     sources: BTreeMap<String, String>,
 }
@@ -51,7 +51,7 @@ pub(super) struct Built {
     pub(super) digest: String,
 }
 
-impl Copy {
+impl MutatedProject {
     /// Copies the project to target/mutants/tree, but for the sources that will have these mutants.
     pub(super) fn new(mutants: &[Mutant]) -> Result<Self, Error> {
         let changed: BTreeSet<&str> = mutants.iter().map(|mutant| &*mutant.file).collect();
