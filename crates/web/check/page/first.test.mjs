@@ -91,7 +91,7 @@ for (const [name, start] of /** @type {const} */ ([
     close();
     await server.close();
     assert.ok(requests.length <= 6, requests.join(" "));
-    assert.ok(bytes <= 1_178_000, `${bytes} bytes`);
+    assert.ok(bytes <= 1_190_000, `${bytes} bytes`);
   });
 }
 
