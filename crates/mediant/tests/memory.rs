@@ -128,7 +128,12 @@ fn eight_planners_share_one_index() {
         (Engine::Anya, Motion::corners(K::ANY), 16),
         (Engine::Anya, Motion::corners(K::N16), 24),
     ] {
-        let space = map.space(motion).expect("a space");
+        let (space, bytes) = kept(|| map.space(motion).expect("a space"));
+        let stated = space.memory_bytes() as usize;
+        assert!(
+            stated <= bytes + 4096 && bytes <= stated + stated / 8 + 8192,
+            "{motion}: a space is said to take {stated} bytes, and takes {bytes}"
+        );
         space.make_ready(engine).expect("it takes the motion");
         let mut configured = ConfiguredEngine::from(engine);
         if let ConfiguredEngine::Subgoal(own) = &mut configured {

@@ -150,9 +150,8 @@ impl Components {
             is_same
         });
         let tiles = self.tiles.iter().map(|row| row.len()).sum::<usize>();
-        let of_the_same_size = change.before().id().size() == change.after().id().size();
         // Repairing a tile takes at most twice as long as making it.
-        if !of_the_same_size || changed.len() > tiles.div_ceil(2) {
+        if changed.len() > tiles.div_ceil(2) {
             return Self::new(change.after(), self.connectivity);
         }
         let mut after = Self { grid: Arc::clone(change.after()), ..self.clone() };
@@ -380,5 +379,17 @@ mod tests {
             ];
             assert_eq!(after.memory_bytes(), new.memory_bytes(), "{connectivity:?}");
         }
+    }
+
+    /// 4 bytes say of each region in which component it is, once somebody asks.
+    #[test]
+    fn memory_holds_the_tiles_and_what_joins_their_regions() {
+        let map = Arc::new(Grid::from_fn(128, 64, |x, y| (x + y) % 2 == 1).expect("a map"));
+        let change = Change::new(Arc::clone(&map)).edit_cells([(63, 0, false)]);
+        let components = Components::new(&map, Connectivity::Four).after(&change);
+        let (tiles, regions) = (components.memory_bytes(), components.next as usize);
+        assert!(tiles >= 64 * 64 * size_of::<u32>(), "{tiles}");
+        assert!(components.count() > 2000);
+        assert_eq!(components.memory_bytes(), tiles + 4 * regions);
     }
 }
