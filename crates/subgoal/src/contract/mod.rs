@@ -251,7 +251,7 @@ impl<G: SubgoalGeometry> ShortcutRule<'_, G> {
             }
             let targets = onward.iter().map(|&j| &around[j as usize]);
             interrupt.check(DURING)?;
-            witness.start(in_round.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)));
+            witness.start(in_round.len(), p.to, targets.map(|q| (q.to, p.cost + q.cost)))?;
             let graph = WitnessGraph { overlay, in_round, without: id };
             witness.run(graph, limit, |from, to| geometry.distance(from, to));
             let needed = onward.iter().filter(|&&j| !witness.has_witness(around[j as usize].to));

@@ -2,7 +2,9 @@
 
 use std::{cmp::Reverse, collections::BinaryHeap};
 
-use super::Overlay;
+use mediant_grid::{Interrupted, room_in};
+
+use super::{DURING, Overlay};
 
 /// Searches for paths that avoid a subgoal: witnesses that it needs no shortcut.
 #[derive(Default)]
@@ -50,7 +52,17 @@ pub(super) struct WitnessGraph<'c, O> {
 
 impl WitnessSearch {
     /// Starts a search from a subgoal to targets, each with the most that a witness may cost.
-    pub(super) fn start(&mut self, count: usize, from: u32, targets: impl Iterator<Item = (u32, u128)>) {
+    ///
+    /// # Errors
+    /// If there is no room for the nodes.
+    pub(super) fn start(
+        &mut self,
+        count: usize,
+        from: u32,
+        targets: impl Iterator<Item = (u32, u128)>,
+    ) -> Result<(), Interrupted> {
+        let more = count.saturating_sub(self.nodes.len());
+        room_in(&mut self.nodes, more, DURING)?;
         self.nodes.resize(count, WitnessNode::default());
         self.generation = self.generation.wrapping_add(1);
         if self.generation == 0 {
@@ -72,6 +84,7 @@ impl WitnessSearch {
         }
         self.left = self.targets.len();
         self.reach(from, 0);
+        Ok(())
     }
 
     fn reach(&mut self, at: u32, cost: u128) {
