@@ -197,6 +197,10 @@ pub fn run_in(
     }
     let mut total = tell(&states, out)?;
     total.add(&beyond);
+    if !is_whole {
+        // Records of other runs have none.
+        writeln!(out, "digest of the families' answers: {:016x}", total.digest_of_answers())?;
+    }
     if options.record {
         records::write((&places.root, &places.records), &sources, pace, &states)?;
     }

@@ -7,10 +7,11 @@ use mediant::{
     options::{ConfiguredEngine, Levels, SubgoalOptions},
 };
 use mediant_formats::scenario_tolerance;
+use sha2::{Digest, Sha256};
 
 use super::{
     Pace,
-    outcome::{Asker, Outcome, takes},
+    outcome::{Asker, Outcome, number, takes},
     tally::Tally,
     terrain::{Instance, Terrain},
 };
@@ -82,6 +83,9 @@ enum Way {
     Field,
 }
 
+/// Answers, each with its instance's place among all.
+type Answers = Vec<(usize, Outcome)>;
+
 /// A way to find costs that takes part.
 #[derive(Clone, Copy)]
 struct Contestant {
@@ -139,16 +143,22 @@ impl Contestant {
         Some(own)
     }
 
-    /// Its answers to the instances that it is asked: each with the instance's place among all.
+    /// Its answers to the instances that it is asked: each with the instance's place among all. And a number
+    /// that they decide.
     fn answers(
         self,
         space: &Space,
         instances: &[Instance],
         step: usize,
-    ) -> Result<Option<Vec<(usize, Outcome)>>, Error> {
+    ) -> Result<Option<(Answers, u64)>, Error> {
         let asked = instances.iter().enumerate().step_by(step);
         match self.way {
-            Way::Field => of_fields(space, asked).map(Some),
+            Way::Field => {
+                let answers = of_fields(space, asked)?;
+                let words = answers.iter().map(|(_, outcome)| outcome.to_string());
+                let digest = words.fold(Sha256::new(), |digest, word| digest.chain_update(word));
+                Ok(Some((answers, number(digest))))
+            }
             Way::Engine(engine) => {
                 let mut asker = Asker::new(space, engine)?;
                 // Where subgoals are not worth their memory another engine searches, which is asked itself.
@@ -160,7 +170,8 @@ impl Contestant {
                     true => (at, asker.cost_twice(instance.ends)),
                     false => (at, asker.cost(instance.ends)),
                 };
-                Ok(Some(asked.map(ask).collect()))
+                let answers = asked.map(ask).collect();
+                Ok(Some((answers, asker.digest())))
             }
         }
     }
@@ -170,7 +181,7 @@ impl Contestant {
 fn of_fields<'a>(
     space: &Space,
     asked: impl Iterator<Item = (usize, &'a Instance)>,
-) -> Result<Vec<(usize, Outcome)>, Error> {
+) -> Result<Answers, Error> {
     let mut sorted: Vec<(usize, Ends)> = asked.map(|(at, instance)| (at, instance.ends)).collect();
     sorted.sort_by_key(|(_, ends)| (ends.start.y, ends.start.x));
     let mut fields = space.fields()?;
@@ -201,11 +212,14 @@ pub(super) fn prove(
     for &motion in motions {
         let space = terrain.map.space(motion)?;
         let contestants = CONTESTANTS.into_iter().filter_map(|name| Contestant::new(name, motion));
-        let mut known: Option<(&str, Vec<(usize, Outcome)>)> = None;
+        let mut known: Option<(&str, Answers)> = None;
         for contestant in contestants {
             // With the first all others are compared.
             let step = if contestant.is_slow && known.is_some() { pace.slow } else { 1 };
-            let Some(answers) = contestant.answers(&space, &terrain.instances, step)? else { continue };
+            let Some((answers, digest)) = contestant.answers(&space, &terrain.instances, step)? else {
+                continue;
+            };
+            tally.digest(digest);
             tally.count_many(contestant.name, answers.len() as u64);
             match &known {
                 None => {
@@ -230,7 +244,7 @@ fn compare(
     (of, terrain): (&str, &Terrain),
     motion: Motion,
     (contestant, answers): (Contestant, &[(usize, Outcome)]),
-    (first, known): &(&str, Vec<(usize, Outcome)>),
+    (first, known): &(&str, Answers),
     tally: &mut Tally,
 ) {
     for (at, outcome) in answers {

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use mediant::{Cost, Ends, Error, Field, K, Motion, Planner, Space, options::ConfiguredEngine};
+use mediant::{Cost, Ends, Error, Field, K, Motion, Path, Planner, Space, options::ConfiguredEngine};
+use sha2::{Digest, Sha256};
 
 /// The relative error that lengths at any angle may have: that of fixed-point costs.
 const ERROR: f64 = 1.0 / (1_u64 << 31) as f64;
@@ -118,11 +119,26 @@ pub(super) fn takes(space: &Space, ends: Ends) -> bool {
 pub(super) struct Asker {
     pub(super) space: Space,
     pub(super) planner: Planner,
+    digest: Sha256,
+}
+
+/// A number by which the same answers are known on another platform.
+pub(super) fn number(digest: Sha256) -> u64 {
+    digest.finalize().iter().take(8).fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
 impl Asker {
     pub(super) fn new(space: &Space, engine: impl Into<ConfiguredEngine>) -> Result<Self, Error> {
-        Ok(Self { space: space.clone(), planner: space.planner(engine)? })
+        Ok(Self::of(space.planner(engine)?))
+    }
+
+    pub(super) fn of(planner: Planner) -> Self {
+        Self { space: planner.index().space().clone(), planner, digest: Sha256::new() }
+    }
+
+    /// A number that all its answers decide: each point of each path.
+    pub(super) fn digest(self) -> u64 {
+        number(self.digest)
     }
 
     /// The cost of the path that it finds, which must hold on the map, consist of moves of N(k) and join both
@@ -148,7 +164,17 @@ impl Asker {
     }
 
     /// [`cost`](Self::cost), with the path.
-    pub(super) fn path(&mut self, ends: Ends) -> (Outcome, Option<mediant::Path>) {
+    pub(super) fn path(&mut self, ends: Ends) -> (Outcome, Option<Path>) {
+        let (outcome, path) = self.judged_path(ends);
+        self.digest.update(outcome.to_string());
+        for (x, y) in path.iter().flat_map(Path::points).map(mediant::Point::parts) {
+            self.digest.update(x.to_le_bytes());
+            self.digest.update(y.to_le_bytes());
+        }
+        (outcome, path)
+    }
+
+    fn judged_path(&mut self, ends: Ends) -> (Outcome, Option<Path>) {
         let found = self.planner.path(ends.start, ends.goal);
         if !takes(&self.space, ends) {
             let outcome = match found {

@@ -15,6 +15,9 @@ pub(super) const WRONG: &str = "wrong";
 pub(super) struct Tally {
     counts: BTreeMap<String, u64>,
     wrong: Vec<String>,
+    /// The sum of numbers that the answers decide.
+    #[serde(default)]
+    digest: u64,
 }
 
 impl Tally {
@@ -45,6 +48,16 @@ impl Tally {
         }
     }
 
+    /// Adds a number that answers decide.
+    pub(super) const fn digest(&mut self, more: u64) {
+        self.digest = self.digest.wrapping_add(more);
+    }
+
+    /// By which the same answers are known on another platform, in whatever order they were given.
+    pub(super) const fn digest_of_answers(&self) -> u64 {
+        self.digest
+    }
+
     pub(super) fn get(&self, name: &str) -> u64 {
         self.counts.get(name).copied().unwrap_or(0)
     }
@@ -62,6 +75,7 @@ impl Tally {
         for (name, count) in other.counts() {
             self.count_many(name, count);
         }
+        self.digest(other.digest);
         let room = KEPT.saturating_sub(self.wrong.len());
         self.wrong.extend(other.wrong.iter().take(room).cloned());
     }

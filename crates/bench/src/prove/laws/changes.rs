@@ -105,8 +105,7 @@ fn same_index(
         tally.expect(agree, || format!("{}, {motion}: {what}: other bytes than anew", case.of));
         return Ok(());
     }
-    let mut askers =
-        [repaired, anew].map(|index| Asker { space: index.space().clone(), planner: index.planner() });
+    let mut askers = [repaired, anew].map(|index| Asker::of(index.planner()));
     for instance in &case.terrain.instances {
         let [(ours, path), (theirs, other)] = askers.each_mut().map(|asker| asker.path(instance.ends));
         let agree = ours.agrees(&theirs) && (same == Same::Costs || path == other);
