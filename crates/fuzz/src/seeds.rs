@@ -36,11 +36,17 @@ pub fn seeds(target: &Target) -> Vec<Vec<u8>> {
         "index-file" => {
             (0..).zip(SAVED.iter()).map(|(at, saved)| [&[at][..], &saved.whole()].concat()).collect()
         }
-        "sequence" => (0..24).map(drawn).chain([PAST_A_GAP.to_vec()]).collect(),
+        "sequence" => {
+            let between_centers = (24..40).map(|number| [vec![BETWEEN_CENTERS], drawn(number)].concat());
+            (0..24).map(drawn).chain([PAST_A_GAP.to_vec()]).chain(between_centers).collect()
+        }
         // Any bytes are numbers, or a program.
         _ => (0..24).map(drawn).collect(),
     }
 }
+
+/// The first byte of a program between centers, at any angle.
+const BETWEEN_CENTERS: u8 = 208;
 
 /// A program of points: lines between the middles of two cells pass a closed gap, others end there, and
 /// another way leads around. Few lines that are drawn meet a gap exactly.

@@ -3,8 +3,8 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant::{
-    Answer, ErrorCode, Exceptions, Field, Guarantee, K, Limit, Limits, Path, PlacementKind, Point, Query,
-    Vertex, errors::QueryError,
+    Answer, ErrorCode, Exceptions, Field, Guarantee, K, Limit, Limits, Path, Point, Query, Rules, Vertex,
+    errors::QueryError,
 };
 
 use super::{
@@ -15,6 +15,10 @@ use crate::bytes::Bytes;
 
 /// The parts of a cell in which points are kept.
 const PARTS: i64 = 1024;
+
+fn vertex(point: Option<Point>) -> Option<Vertex> {
+    point.and_then(Point::vertex)
+}
 
 impl Run {
     /// A vertex on the map, or in one of eight just outside.
@@ -40,7 +44,7 @@ impl Run {
 
     /// Checks a path that was found between some of these ends.
     pub(super) fn check_path(&mut self, path: &Path, pairs: &[(Vertex, Vertex)]) {
-        let ends = path.waypoints().first().copied().zip(path.waypoints().last().copied());
+        let ends = vertex(path.start()).zip(vertex(path.goal()));
         self.check(ends.is_some_and(|ends| pairs.contains(&ends)), || format!("{path}: other ends"));
         self.check(self.known.holds(path), || format!("{path} is not legal"));
         self.check(self.space.check(path).is_ok(), || format!("{path} is not legal, it is said"));
@@ -108,7 +112,7 @@ impl Run {
                 let reached = self.known.free().into_iter();
                 let reached = reached.filter(|&at| self.known.cost(start, at).is_some());
                 let least = reached.map(|at| self.known.distance(at, goal)).min();
-                let Some(&end) = path.waypoints().last() else {
+                let Some(end) = vertex(path.goal()) else {
                     return self.check(false, || "no path".to_owned());
                 };
                 let found = Some(self.known.distance(end, goal));
@@ -156,7 +160,7 @@ impl Run {
                     self.check(is_beyond, || format!("{least} is within {limit}"));
                 }
                 let best = stopped.best;
-                self.check(best.waypoints().first() == Some(&start), || format!("{best}"));
+                self.check(best.start() == Some(start.into()), || format!("{best}"));
                 self.check(self.known.holds(&best), || format!("{best} is not legal"));
             }
             Ok(Answer::Found(path)) => {
@@ -246,9 +250,13 @@ impl Run {
     }
 
     fn between_points(&mut self, from: (i64, i64), to: (i64, i64)) {
-        let is_any = self.setup.k() == K::Any && self.setup.rules().placement() == PlacementKind::Corner;
+        let rules = self.setup.rules();
+        let is_any = self.setup.k() == K::Any && !matches!(rules, Rules::Center(_));
         self.say(&format!("path {from:?} {to:?}, in 1/{PARTS} of a cell"));
-        let [start, goal] = [from, to].map(|(x, y)| Point::from_parts(x, y));
+        let point = |(x, y)| Point::from_parts(x, y);
+        let is_between_centers = matches!(rules, Rules::CenterGap(_));
+        let [start, goal] =
+            [from, to].map(|at| if is_between_centers { point(at).at_centers() } else { point(at) });
         let are_free = self.space.is_free(start) && self.space.is_free(goal);
         let answer = self.planner.find(Query::new(start, goal));
         if !is_any || !are_free {

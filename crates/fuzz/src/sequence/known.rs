@@ -5,10 +5,10 @@ use std::{
     collections::BTreeMap,
 };
 
-use mediant::{Guarantee, K, Path, Setup, Vertex};
-use mediant_grid::{Grid, PlacementKind, Rectangle, Rules};
+use mediant::{Guarantee, K, Path, Point, Setup, Vertex};
+use mediant_grid::{DiagonalGap, Grid, PlacementKind, Rectangle, Rules};
 use mediant_moves::CostTable;
-use mediant_oracle::{Explicit, PointVisibility, validate, vertex_is_free};
+use mediant_oracle::{Explicit, PointVisibility, validate, validate_between_points, vertex_is_free};
 
 /// Costs are equal if they differ by less than this part of themselves: sums of rounded lengths.
 pub(super) const ROOM: f64 = 1e-7;
@@ -28,6 +28,11 @@ pub(super) fn edited(grid: &Grid, cells: &[(Vertex, bool)]) -> Grid {
     cells.iter().fold(grid.clone(), |grid, &(cell, blocked)| {
         grid.with_rectangle(Rectangle::new(cell.x as u32, cell.y as u32, 1, 1), |_, _| blocked)
     })
+}
+
+/// The oracle's coordinates of a point between centers: those of corners.
+fn parts(point: Point) -> (i64, i64) {
+    point.at_corners().parts()
 }
 
 impl Known {
@@ -53,12 +58,23 @@ impl Known {
         let is_any = k == K::Any;
         let mut known = self.from.borrow_mut();
         let costs = known.entry((is_any, from.x, from.y)).or_insert_with(|| {
+            if let Rules::CenterGap(gap) = self.rules() {
+                return self.between_centers(gap, from);
+            }
             let cell = if is_any { &self.of_any } else { &self.of_k };
             let graph = cell.get_or_init(|| Explicit::new(&self.grid, self.rules(), k.finite()));
             let costs = graph.costs_from(from);
             graph.free_vertices().filter_map(|at| Some(((at.x, at.y), costs.to(at)?))).collect()
         });
         costs.get(&(to.x, to.y)).copied()
+    }
+
+    /// The costs from the center of a cell to all others.
+    fn between_centers(&self, gap: DiagonalGap, from: Vertex) -> BTreeMap<(i32, i32), f64> {
+        let visibility = PointVisibility::new(&self.grid, gap);
+        let costs = visibility.costs_from(parts(from.into()));
+        let to = |at: Vertex| Some(((at.x, at.y), costs.to(parts(at.into()))?));
+        self.free().into_iter().filter_map(to).collect()
     }
 
     /// The least cost over the motion's own N(k).
@@ -76,9 +92,9 @@ impl Known {
         pairs.iter().filter_map(|&(from, to)| self.least(from, to)).min_by(f64::total_cmp)
     }
 
-    /// The least cost between two points, in parts of a cell.
+    /// The least cost between two points, in parts of a cell, between corners.
     pub(super) fn between_points(&self, from: (i64, i64), to: (i64, i64)) -> Option<f64> {
-        let Rules::Corner(gap) = self.rules() else { return None };
+        let (Rules::Corner(gap) | Rules::CenterGap(gap)) = self.rules() else { return None };
         PointVisibility::new(&self.grid, gap).cost(from, to)
     }
 
@@ -108,6 +124,11 @@ impl Known {
 
     /// Whether a path is legal from its first to its last waypoint.
     pub(super) fn holds(&self, path: &Path) -> bool {
+        if let Rules::CenterGap(gap) = self.rules() {
+            let points: Vec<_> = path.points().map(parts).collect();
+            let ([start, .., goal] | [start @ goal]) = *points else { return true };
+            return validate_between_points(&self.grid, gap, start, goal, &points, path.cost()).is_ok();
+        }
         let waypoints = path.waypoints();
         let (Some(&start), Some(&goal)) = (waypoints.first(), waypoints.last()) else { return true };
         let k = self.setup.paths().finite();

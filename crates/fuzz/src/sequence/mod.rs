@@ -29,6 +29,9 @@ const MOST: usize = 12;
 /// The least first byte of a program that asks for paths between points alone, or nearly so.
 const POINTS: u8 = 224;
 
+/// That of a program whose paths lead between centers at any angle.
+const BETWEEN_CENTERS: u8 = 208;
+
 /// An engine on a map, and the operations so far.
 struct Run {
     setup: Setup,
@@ -46,12 +49,17 @@ struct Run {
 /// A map, an engine, and operations.
 pub(crate) fn run(data: &[u8]) {
     let mut bytes = Bytes::new(data);
-    let is_of_points = data.first().is_some_and(|&first| first >= POINTS);
-    if is_of_points {
+    let first = data.first().copied().unwrap_or_default();
+    let is_of_points = first >= POINTS;
+    if first >= BETWEEN_CENTERS {
         bytes.byte();
     }
     let grid = grid(&mut bytes);
-    let motion = if is_of_points { between_points(&mut bytes) } else { motion(&mut bytes) };
+    let motion = match first {
+        POINTS.. => any_angle(Rules::Corner, &mut bytes),
+        BETWEEN_CENTERS.. => any_angle(Rules::CenterGap, &mut bytes),
+        _ => motion(&mut bytes),
+    };
     let setups = setups(motion, is_of_points);
     let which = usize::from(bytes.byte()) << 8 | usize::from(bytes.byte());
     let setup = setups[which % setups.len()];
@@ -94,9 +102,8 @@ fn motion(bytes: &mut Bytes<'_>) -> Motion {
 }
 
 /// A motion whose paths may begin and end at any point.
-fn between_points(bytes: &mut Bytes<'_>) -> Motion {
-    let gap = DiagonalGap::ALL[bytes.below(DiagonalGap::ALL.len())];
-    Motion::new(K::Any, Rules::Corner(gap))
+fn any_angle(rules: fn(DiagonalGap) -> Rules, bytes: &mut Bytes<'_>) -> Motion {
+    Motion::new(K::Any, rules(DiagonalGap::ALL[bytes.below(DiagonalGap::ALL.len())]))
 }
 
 type Setups = Rc<[Setup]>;
