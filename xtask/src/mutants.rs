@@ -8,8 +8,8 @@
 //! for the active mutant (`schema`), and one number in the environment makes it active. Each test is run once
 //! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first.
 //!
-//! Outcomes are kept in `target/mutants`, so that a run goes on where it was; `--again` tries those that
-//! survived with the tests of today. The record is `docs/proof/mutants.json`. Each survivor is explained in
+//! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on where
+//! it was; `--again` tries those that survived, with the tests of today. The record is `docs/proof/mutants.json`. Each survivor is explained in
 //! `mutants/explained.json`, or the run says that it is not.
 
 mod list;
@@ -71,6 +71,8 @@ pub struct Options {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Tried {
     key: String,
+    /// The digest of its file.
+    source: String,
     outcome: Outcome,
 }
 
@@ -92,8 +94,9 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let built = project.build(&mutants)?;
     let folder = root().join("target/mutants");
     let tests = tests(&built, &folder, options.threads)?;
-    let file = folder.join(format!("outcomes-{}.jsonl", sources(&mutants)?));
-    let mut known = outcomes(&file);
+    let file = folder.join("outcomes.jsonl");
+    let sources = digests(&mutants)?;
+    let mut known = outcomes(&file, &sources);
     let is_asked = |mutant: &&Mutant| {
         options.groups.is_empty() || options.groups.iter().any(|name| name == mutant.group)
     };
@@ -112,7 +115,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
         if until.is_some_and(|until| Instant::now() > until) {
             return Ok(None);
         }
-        let tried = Tried { key: mutant.key(), outcome: bench.trial(mutant)? };
+        let source = sources[&*mutant.file].clone();
+        let tried = Tried { key: mutant.key(), source, outcome: bench.trial(mutant)? };
         if let Outcome::Survived(..) | Outcome::Unreached = tried.outcome {
             println!("{:?}: {}", tried.outcome, tried.key);
         }
@@ -125,23 +129,25 @@ pub fn run(options: &Options) -> Result<(), Error> {
     record::tell(&mutants, &known, options.record)
 }
 
-/// The outcomes that a file holds; the last one of a mutant counts.
-fn outcomes(file: &Path) -> HashMap<String, Outcome> {
+/// The outcomes that a file holds of mutants whose sources are as they were; the last one of a mutant counts.
+fn outcomes(file: &Path, sources: &HashMap<&str, String>) -> HashMap<String, Outcome> {
     let text = fs::read_to_string(file).unwrap_or_default();
     let tried = text.lines().filter_map(|line| serde_json::from_str::<Tried>(line).ok());
-    tried.map(|tried| (tried.key, tried.outcome)).collect()
+    let is_same = |tried: &Tried| sources.values().any(|source| *source == tried.source);
+    tried.filter(is_same).map(|tried| (tried.key, tried.outcome)).collect()
 }
 
-/// A digest of the sources that have mutants.
-fn sources(mutants: &[Mutant]) -> Result<String, Error> {
-    let mut files: Vec<&str> = mutants.iter().map(|mutant| &*mutant.file).collect();
-    files.dedup();
-    let mut digest = Sha256::new();
-    for file in files {
-        let path = root().join(file);
-        digest.update(fs::read(&path).map_err(Error::at(&path))?);
+/// A digest of each file that has mutants, with its path.
+fn digests(mutants: &[Mutant]) -> Result<HashMap<&str, String>, Error> {
+    let mut digests = HashMap::new();
+    for Mutant { file, .. } in mutants {
+        if !digests.contains_key(&**file) {
+            let path = root().join(file);
+            let source = fs::read(&path).map_err(Error::at(&path))?;
+            digests.insert(&**file, hex(Sha256::new().chain_update(file).chain_update(source)));
+        }
     }
-    Ok(hex(digest))
+    Ok(digests)
 }
 
 /// The tests of the programs, with their times and places; kept while all sources are the same.
