@@ -111,11 +111,11 @@ impl Run {
                 self.check(self.known.cost(start, goal).is_none(), || "there is a path".to_owned());
                 let reached = self.known.free().into_iter();
                 let reached = reached.filter(|&at| self.known.cost(start, at).is_some());
-                let least = reached.map(|at| self.known.distance(at, goal)).min();
+                let least = reached.map(|at| self.known.distance(at, goal.into())).min();
                 let Some(end) = vertex(path.goal()) else {
                     return self.check(false, || "no path".to_owned());
                 };
-                let found = Some(self.known.distance(end, goal));
+                let found = Some(self.known.distance(end, goal.into()));
                 self.check(found == least, || format!("{end} is not the nearest"));
                 self.check_path(&path, &[(start, end)]);
             }

@@ -116,10 +116,23 @@ impl Known {
     }
 
     /// The distance on an empty map, by which a vertex is near; comparable, not in cells.
-    pub(super) fn distance(&self, from: Vertex, to: Vertex) -> u64 {
-        let between = from.to(to);
-        let table = self.setup.k().finite().map(|k| CostTable::new(k).expect("a small k"));
-        table.map_or_else(|| between.norm_squared(), |table| table.distance(between).to_bits())
+    pub(super) fn distance(&self, from: Vertex, to: Point) -> u64 {
+        if let (Some(k), Some(to)) = (self.setup.k().finite(), to.vertex()) {
+            return CostTable::new(k).expect("a small k").distance(from.to(to)).to_bits();
+        }
+        let ((x, y), (column, row)) = (Point::from(from).parts(), to.parts());
+        (x - column).unsigned_abs().pow(2) + (y - row).unsigned_abs().pow(2)
+    }
+
+    /// The place on the map that is nearest to a vertex along each axis: between centers at any angle points
+    /// are on it up to its edges.
+    pub(super) fn clamped(&self, at: Vertex) -> Point {
+        let (width, height) = self.size();
+        let margin = if let Rules::CenterGap(_) = self.rules() { Point::PARTS / 2 } else { 0 };
+        let clamp = |at: i32, count: i32| {
+            (i64::from(at) * Point::PARTS).clamp(-margin, i64::from(count - 1) * Point::PARTS + margin)
+        };
+        Point::from_parts(clamp(at.x, width), clamp(at.y, height))
     }
 
     /// Whether a path is legal from its first to its last waypoint.

@@ -110,15 +110,10 @@ impl Run {
         (0..width).contains(&at.x) && (0..height).contains(&at.y)
     }
 
-    /// The free vertex nearest to a place, after it is moved into the map; of several the first row by row.
+    /// The free vertex nearest to a place, after it is moved to the map; of several the first row by row.
     fn snapped(&self, at: Vertex) -> Option<Vertex> {
-        let at = self.clamped(at);
+        let at = self.known.clamped(at);
         self.known.free().into_iter().min_by_key(|&free| (self.known.distance(free, at), free.y, free.x))
-    }
-
-    fn clamped(&self, at: Vertex) -> Vertex {
-        let (width, height) = self.known.size();
-        Vertex::new(at.x.clamp(0, width - 1), at.y.clamp(0, height - 1))
     }
 
     /// The free vertices that an end means; the code of the mistake if there is none.
@@ -169,8 +164,9 @@ impl Run {
         let reached = self.known.free().into_iter();
         let reached: Vec<Vertex> =
             reached.filter(|&at| starts.iter().any(|&start| connected(start, at))).collect();
-        let from_goals =
-            |at: Vertex| wished.goals.iter().map(|&goal| self.known.distance(at, self.clamped(goal))).min();
+        let from_goals = |at: Vertex| {
+            wished.goals.iter().map(|&goal| self.known.distance(at, self.known.clamped(goal))).min()
+        };
         let least = reached.iter().filter_map(|&at| from_goals(at)).min();
         let near: Vec<Vertex> = reached.into_iter().filter(|&at| from_goals(at) == least).collect();
         Ok(Sought { pairs: pairs(&near), is_nearest: true })

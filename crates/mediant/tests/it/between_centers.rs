@@ -289,3 +289,19 @@ fn fields_lead_from_centers_to_sources_anywhere() {
         assert!(error.to_string().contains(&Point::from(source).to_string()), "{error}");
     }
 }
+
+/// Over N(k) an end outside the map is moved to a vertex of it first, at any angle to its edge.
+#[test]
+fn an_end_outside_the_map_is_moved_to_its_edge_first() {
+    let map = Map::from_rows(["##", "#.", ".#"]).expect("a map");
+    let start_of = |motion: Motion, engine: Engine| {
+        let space = map.space(motion).expect("a space");
+        let query = Query::new((-3, 1), (-3, 1)).snap();
+        let answer = space.planner(engine).expect("it takes the motion").find(query).expect("free vertices");
+        answer.path().and_then(mediant::Path::start)
+    };
+    assert_eq!(start_of(Motion::centers(K::N8), Engine::AStar), Some((1, 1).into()));
+    for (gap, engine) in GAPS.into_iter().flat_map(|gap| ENGINES.map(|engine| (gap, engine))) {
+        assert_eq!(start_of(motion(gap), engine), Some((0, 2).into()), "{gap}, {engine}");
+    }
+}

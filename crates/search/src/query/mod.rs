@@ -169,8 +169,9 @@ impl Query {
     }
 
     /// Moves each end that is blocked to the free vertex nearest to it: by h_k, at k = ∞ by the straight
-    /// line; of several the first row by row. An end outside the map is first moved to the vertex of the
-    /// map's rectangle that is nearest along each axis. The answer's path tells where the ends are.
+    /// line; of several the first row by row. An end outside the map is first moved to the place on the map
+    /// that is nearest along each axis: over N(k) a vertex; at any angle a point, between centers up to half
+    /// a cell beyond the outermost of them. The answer's path tells where the ends are.
     #[must_use]
     pub fn snap(mut self) -> Self {
         self.wishes_mut().snap = true;
