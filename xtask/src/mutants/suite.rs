@@ -24,6 +24,7 @@ pub(super) struct Test {
     /// The number of its program.
     pub(super) program: usize,
     pub(super) name: String,
+    /// Of a processor.
     pub(super) seconds: f64,
     /// The places to which it comes, each by its first mutant.
     pub(super) places: BTreeSet<u32>,
@@ -43,12 +44,22 @@ pub(super) enum End {
 pub(super) fn run(
     program: &Program,
     names: &[&str],
+    variable: (&str, &str),
+    longest: Duration,
+) -> Result<End, Error> {
+    run_by("exec \"$0\" \"$@\"", program, names, variable, longest)
+}
+
+/// [`run`] by a line of the shell, which sets the limit of memory.
+fn run_by(
+    line: &str,
+    program: &Program,
+    names: &[&str],
     (variable, value): (&str, &str),
     longest: Duration,
 ) -> Result<End, Error> {
-    // A shell, for the limit.
     let mut command = Command::new("sh");
-    command.arg("-c").arg(format!("ulimit -v {MEMORY}; exec \"$0\" \"$@\"")).arg(&program.path);
+    command.arg("-c").arg(format!("ulimit -v {MEMORY}; {line}")).arg(&program.path);
     command.args(["-Zunstable-options", "--fail-fast", "--test-threads=1", "--exact"]).args(names);
     command.env("RUSTC_BOOTSTRAP", "1").env("RUST_BACKTRACE", "0").env("INSTA_UPDATE", "no");
     command.env("CARGO_MANIFEST_DIR", &program.folder).env(variable, value).current_dir(&program.folder);
@@ -105,10 +116,10 @@ pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Resu
     let tests = super::in_parallel(threads, &all, |worker, (number, name)| {
         let reached = folder.join(format!("reached-{worker}"));
         let _ = fs::remove_file(&reached);
-        let begin = Instant::now();
         let value = reached.to_string_lossy().into_owned();
-        let end = run(&programs[*number], &[name], ("MUTANT_REACH", &value), Duration::from_secs(600))?;
-        let seconds = begin.elapsed().as_secs_f64();
+        let (line, variable) = (r#""$0" "$@" && times >"$MUTANT_REACH.times""#, ("MUTANT_REACH", &*value));
+        let end = run_by(line, &programs[*number], &[name], variable, Duration::from_secs(1200))?;
+        let seconds = of_processor(&fs::read_to_string(value.clone() + ".times").unwrap_or_default());
         if end != End::Passed {
             println!("left out, since it fails without a mutant: {} {name}", programs[*number].name);
             return Ok(None);
@@ -120,7 +131,28 @@ pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Resu
     Ok(tests.into_iter().flatten().collect())
 }
 
+/// The seconds of a processor that a shell's children had, by its command `times`: on a busy machine they are
+/// the same. Its second line is `0m1.25s 0m0.50s`.
+fn of_processor(times: &str) -> f64 {
+    let of = |part: &str| {
+        let (minutes, seconds) = part.trim_end_matches('s').split_once('m')?;
+        Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)
+    };
+    times.lines().nth(1).unwrap_or_default().split_whitespace().filter_map(of).sum()
+}
+
 /// The file of known tests, for programs that are the same.
 pub(super) fn file(folder: &Path, digest: &str) -> PathBuf {
     folder.join(format!("tests-{digest}.json"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_processor;
+
+    #[test]
+    fn the_times_of_a_shell() {
+        assert_eq!(of_processor("0m0.01s 0m0.00s\n1m1.25s 0m0.50s\n"), 61.75);
+        assert_eq!(of_processor(""), 0.0);
+    }
 }
