@@ -84,7 +84,7 @@ impl<P: Placement> FreeSpace<P> {
     #[must_use]
     pub fn after(&self, change: &Change) -> Self {
         let grid = Arc::clone(change.after());
-        if change.before().id() != self.grid.id() || grid.id().size() != self.grid.id().size() {
+        if change.before().id() != self.grid.id() {
             let k = if self.identity().k.is_some() { K::N4 } else { K::Any };
             return Self::for_k(grid, self.rule, k);
         }

@@ -45,7 +45,7 @@ impl Clearance {
     #[must_use]
     pub fn after(&self, change: &Change) -> Self {
         let (fit, outside, grid) = (self.fit, self.outside, change.after());
-        let is_same = change.before().id() == self.grid.id() && grid.id().size() == self.grid.id().size();
+        let is_same = change.before().id() == self.grid.id();
         let squared = is_same.then(|| Repair::new(self, change).follow(change)).flatten();
         let Some(squared) = squared else { return Self::new(grid.clone(), fit, outside) };
         // Where there is an obstacle within reach, there is one.

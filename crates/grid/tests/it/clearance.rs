@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Clearance, Fit, Grid, Interrupt, Outside, SizeError, Vertex};
+use mediant_grid::{Change, Clearance, Fit, Grid, Interrupt, Outside, SizeError, Vertex};
 use mediant_oracle::{Rng, caves, noise, on_all_cores, random_change, rooms, seeds, suite_grid};
 
 pub(crate) const KINDS: [(Fit, Outside); 4] = [
@@ -202,6 +202,21 @@ fn radii_that_are_none_are_refused() {
     }
     assert_eq!(clearance.for_disc(f64::MAX).expect("a radius").free_cells(), 0);
     assert_eq!(clearance.for_disc(f64::from_bits(1)).expect("a radius").free_cells(), 9);
+}
+
+/// The change of another map: nothing of the known one is kept.
+#[test]
+fn the_change_of_another_map_is_measured_anew() {
+    let [own, other] =
+        [(2, 2), (7, 7)].map(|wall| Arc::new(Grid::from_fn(9, 9, |x, y| (x, y) == wall).expect("a map")));
+    let change = Change::new(other).edit_cells([(4, 0, true)]);
+    for (fit, outside) in KINDS {
+        let after = Clearance::new(Arc::clone(&own), fit, outside).after(&change);
+        let new = Clearance::new(Arc::clone(change.after()), fit, outside);
+        for at in (0..9).flat_map(|y| (0..9).map(move |x| Vertex::new(x, y))) {
+            assert_eq!(after.distance(at), new.distance(at), "{at}, {fit:?}, {outside:?}");
+        }
+    }
 }
 
 /// Chains of edits: the squares of all points, and whether there is any obstacle.

@@ -121,9 +121,6 @@ impl<P: Placement> Pruning<P> {
             return Ok(Err(mismatch));
         }
         let rule = Arc::clone(&self.rule);
-        if change.before().id().size() != change.after().id().size() {
-            return Self::prepare(graph, rule, interrupt).map(Ok);
-        }
         let clearance =
             self.clearance.as_ref().map(|known| known.after::<P>(change, interrupt)).transpose()?;
         let forced_cache = match (&self.forced_cache, &rule.lookup) {

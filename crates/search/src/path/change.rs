@@ -23,10 +23,7 @@ impl Path {
     /// # Errors
     /// As for [`check`](Self::check).
     pub fn check_after<P: Placement>(&self, space: &FreeSpace<P>, change: &Change) -> Result<(), BrokenPath> {
-        if change.before().id().size() == change.after().id().size()
-            && !self.is_empty()
-            && !self.may_break(space, change.cells())
-        {
+        if !self.is_empty() && !self.may_break(space, change.cells()) {
             return Ok(());
         }
         self.check(space)
@@ -78,9 +75,6 @@ impl Path {
             return f64::INFINITY;
         };
         let (before, after) = (change.before(), change.after());
-        if before.id().size() != after.id().size() {
-            return start.distance(goal);
-        }
         // The corner of cell (0, 0), in the coordinates of vertices.
         let corner = if P::KIND == PlacementKind::Center { -0.5 } else { 0.0 };
         let distance = |at: Point, &Rectangle { x, y, width, height }: &Rectangle| {

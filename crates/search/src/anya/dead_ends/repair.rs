@@ -41,8 +41,7 @@ impl DeadEnds {
         let (before, after) = (change.before(), change.after());
         let is_of_these = self.identity.map == Some(before.id())
             && self.identity.rules == space.identity().rules
-            && space.grid().id() == after.id()
-            && before.id().size() == after.id().size();
+            && space.grid().id() == after.id();
         let limit = before.width() as usize * before.height() as usize / MANY + 64;
         let changed = if is_of_these { changed_cells(change, limit) } else { None };
         let Some(changed) = changed else { return Self::interruptible(space, interrupt) };
