@@ -6,11 +6,13 @@
 //! **The key decision: all mutants are compiled at once.** Compiling each alone, as cargo-mutants does, takes
 //! ten seconds, and there are thousands. So all are put into a copy of the sources, each behind a question
 //! for the active mutant (`schema`), and one number in the environment makes it active. Each test is run once
-//! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first.
+//! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first, and random
+//! suites on a few maps before they are run on all.
 //!
 //! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on where
-//! it was; `--again` tries those that survived, with the tests of today. The record is `docs/proof/mutants.json`. Each survivor is explained in
-//! `mutants/explained.json`, or the run says that it is not.
+//! it was; `--again` tries those that survived, with the tests of today. The record is
+//! `docs/proof/mutants.json`. Each survivor is explained in `mutants/explained.json`, or the run says that it
+//! is not.
 
 mod list;
 mod record;
@@ -39,7 +41,7 @@ use sha2::{Digest, Sha256};
 
 use self::{
     list::{Mutant, mutants},
-    suite::Test,
+    suite::{Form, Test},
     tree::{Built, MutatedProject},
     trial::{Bench, Outcome},
 };
@@ -158,7 +160,8 @@ fn tests(built: &Built, folder: &Path, threads: usize) -> Result<Vec<Test>, Erro
         return Ok(tests);
     }
     let mut tests = suite::tests(&built.programs, folder, threads)?;
-    tests.sort_by(|one, other| one.seconds.total_cmp(&other.seconds));
+    let order = |test: &Test| test.form == Form::Whole;
+    tests.sort_by(|one, other| order(one).cmp(&order(other)).then(one.seconds.total_cmp(&other.seconds)));
     fs::write(&file, serde_json::to_string(&tests).unwrap_or_default()).map_err(Error::at(&file))?;
     Ok(tests)
 }

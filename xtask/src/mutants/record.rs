@@ -1,9 +1,6 @@
 //! The outcomes of all mutants, told, and as a record.
 
-use std::{
-    collections::{HashMap, HashSet},
-    fs,
-};
+use std::{collections::HashMap, fs};
 
 use mediant_report::{Column, Machine, Provenance, Record, Row, revision};
 use mediant_sets::root;
@@ -20,14 +17,30 @@ const FILE: &str = "docs/proof/mutants.json";
 /// The mutants that survive for a reason.
 const EXPLAINED: &str = include_str!("explained.json");
 
-/// Why mutants survive.
+/// Why mutants of a file survive.
 #[derive(Debug, Deserialize)]
 struct Explained {
     file: String,
-    /// The change, in the words of cargo-mutants; of all mutants of a file with these words.
+    /// Changes, in the words of cargo-mutants; all mutants with these words.
+    #[serde(default)]
     changes: Vec<String>,
+    /// Functions, all of whose mutants are meant.
+    #[serde(default)]
+    functions: Vec<String>,
     #[expect(dead_code, reason = "for readers")]
     why: String,
+}
+
+impl Explained {
+    fn holds(&self, mutant: &Mutant) -> bool {
+        let Mutant { file, change, .. } = mutant;
+        let is_in = |function: &String| {
+            let rest = change.strip_prefix("replace ").and_then(|rest| rest.strip_prefix(&**function));
+            change.ends_with(&format!(" in {function}"))
+                || rest.is_some_and(|rest| rest.starts_with(" -> ") || rest.starts_with(" with "))
+        };
+        *file == self.file && (self.changes.contains(change) || self.functions.iter().any(is_in))
+    }
 }
 
 /// The counts of a group.
@@ -65,7 +78,7 @@ pub(super) fn tell(
                 Some(Outcome::Late(_)) => counts.late += 1,
                 Some(Outcome::Survived(..)) => {
                     counts.survived += 1;
-                    let is_explained = explained.contains(&(mutant.file.clone(), mutant.change.clone()));
+                    let is_explained = explained.iter().any(|explained| explained.holds(mutant));
                     counts.explained += usize::from(is_explained);
                 }
             }
@@ -82,14 +95,9 @@ pub(super) fn tell(
     if survivors == 0 { Ok(()) } else { Err(Error::Survivors { count: survivors }) }
 }
 
-fn explained() -> Result<HashSet<(String, String)>, Error> {
-    let read: Vec<Explained> = serde_json::from_str(EXPLAINED)
-        .map_err(|error| Error::Step { command: format!("reading mutants/explained.json: {error}") })?;
-    let pairs = |explained: Explained| {
-        let Explained { file, changes, .. } = explained;
-        changes.into_iter().map(move |change| (file.clone(), change))
-    };
-    Ok(read.into_iter().flat_map(pairs).collect())
+fn explained() -> Result<Vec<Explained>, Error> {
+    serde_json::from_str(EXPLAINED)
+        .map_err(|error| Error::Step { command: format!("reading mutants/explained.json: {error}") })
 }
 
 fn row(group: &str, counts: Counts) -> Row {
@@ -131,5 +139,37 @@ fn record(rows: Vec<Row>, all: usize, open: usize) -> Record {
             of("explained", "survivors with a reason: they change no answer"),
         ],
         rows,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::list::Genre, *};
+
+    #[test]
+    fn mutants_are_explained_by_their_words_or_their_function() {
+        let mutant = |change: &str| Mutant {
+            id: 1,
+            file: "a.rs".to_owned(),
+            line: 1,
+            column: 1,
+            genre: Genre::Binary,
+            replacement: String::new(),
+            change: change.to_owned(),
+            group: "bounds",
+        };
+        let explained: Vec<Explained> = serde_json::from_str(
+            r#"[{"file": "a.rs", "changes": ["replace + with - in f"], "functions": ["S::g"], "why": "…"}]"#,
+        )
+        .expect("a list");
+        let holds = |change: &str| explained[0].holds(&mutant(change));
+        let held = ["replace + with - in f", "delete ! in S::g", "replace S::g -> bool with true"];
+        assert!(held.into_iter().all(holds));
+        assert!(
+            !["replace + with * in f", "delete ! in S::gg", "replace S::gg -> bool with true"]
+                .into_iter()
+                .any(holds)
+        );
+        assert!(super::explained().is_ok());
     }
 }

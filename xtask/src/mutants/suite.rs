@@ -18,16 +18,31 @@ use crate::Error;
 /// The most bytes of addresses that a test may have: a mutant may ask for more and more.
 const MEMORY: &str = "6000000";
 
-/// A test.
+/// The number of maps of a random suite in its short form: the first ones kill most mutants that are killed.
+const FEW: &str = "3";
+
+/// A test, or a random suite in its short form.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Test {
     /// The number of its program.
     pub(super) program: usize,
     pub(super) name: String,
+    pub(super) form: Form,
     /// Of a processor.
     pub(super) seconds: f64,
     /// The places to which it comes, each by its first mutant.
     pub(super) places: BTreeSet<u32>,
+}
+
+/// The maps of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(super) enum Form {
+    /// A few.
+    Short,
+    /// All; there is no short form.
+    Only,
+    /// All, where there is a short form, which is tried before.
+    Whole,
 }
 
 /// The end of a run of tests.
@@ -43,18 +58,18 @@ pub(super) enum End {
 /// Runs tests of a program, one after the other, until one fails.
 pub(super) fn run(
     program: &Program,
-    names: &[&str],
+    (names, form): (&[&str], Form),
     variable: (&str, &str),
     longest: Duration,
 ) -> Result<End, Error> {
-    run_by("exec \"$0\" \"$@\"", program, names, variable, longest)
+    run_by("exec \"$0\" \"$@\"", program, (names, form), variable, longest)
 }
 
 /// [`run`] by a line of the shell, which sets the limit of memory.
 fn run_by(
     line: &str,
     program: &Program,
-    names: &[&str],
+    (names, form): (&[&str], Form),
     (variable, value): (&str, &str),
     longest: Duration,
 ) -> Result<End, Error> {
@@ -63,6 +78,9 @@ fn run_by(
     command.args(["-Zunstable-options", "--fail-fast", "--test-threads=1", "--exact"]).args(names);
     command.env("RUSTC_BOOTSTRAP", "1").env("RUST_BACKTRACE", "0").env("INSTA_UPDATE", "no");
     command.env("CARGO_MANIFEST_DIR", &program.folder).env(variable, value).current_dir(&program.folder);
+    if form == Form::Short {
+        command.env("MEDIANT_GRIDS", FEW);
+    }
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
     let mut child = command.spawn().map_err(Error::at(&program.path))?;
     let out = child.stdout.take().map(BufReader::new);
@@ -114,21 +132,38 @@ pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Resu
         all.extend(names(program)?.into_iter().map(|name| (number, name)));
     }
     let tests = super::in_parallel(threads, &all, |worker, (number, name)| {
-        let reached = folder.join(format!("reached-{worker}"));
-        let _ = fs::remove_file(&reached);
-        let value = reached.to_string_lossy().into_owned();
-        let (line, variable) = (r#""$0" "$@" && times >"$MUTANT_REACH.times""#, ("MUTANT_REACH", &*value));
-        let end = run_by(line, &programs[*number], &[name], variable, Duration::from_secs(1200))?;
-        let seconds = of_processor(&fs::read_to_string(value.clone() + ".times").unwrap_or_default());
-        if end != End::Passed {
+        let of = |form| measured((*number, &programs[*number]), (name, form), folder, worker);
+        let Some(whole) = of(Form::Only)? else {
             println!("left out, since it fails without a mutant: {} {name}", programs[*number].name);
-            return Ok(None);
-        }
-        let places = fs::read_to_string(&reached).unwrap_or_default();
-        let places = places.lines().filter_map(|line| line.parse().ok()).collect();
-        Ok(Some(Test { program: *number, name: name.clone(), seconds, places }))
+            return Ok(Vec::new());
+        };
+        // A suite that counts what it found fails in its short form.
+        let short = if whole.seconds > 0.2 { of(Form::Short)? } else { None };
+        Ok(match short.filter(|short| 2.0 * short.seconds < whole.seconds) {
+            Some(short) => vec![short, Test { form: Form::Whole, ..whole }],
+            None => vec![whole],
+        })
     })?;
     Ok(tests.into_iter().flatten().collect())
+}
+
+/// A test that is run once without a mutant; `None` if it fails.
+fn measured(
+    (number, program): (usize, &Program),
+    (name, form): (&str, Form),
+    folder: &Path,
+    worker: usize,
+) -> Result<Option<Test>, Error> {
+    let reached = folder.join(format!("reached-{worker}")).to_string_lossy().into_owned();
+    let times = format!("{reached}.times");
+    [&reached, &times].into_iter().for_each(|file| _ = fs::remove_file(file));
+    let (line, variable) = (r#""$0" "$@" && times >"$MUTANT_REACH.times""#, ("MUTANT_REACH", &*reached));
+    let end = run_by(line, program, (&[name], form), variable, Duration::from_secs(1200))?;
+    let read = |file: &str| fs::read_to_string(file).unwrap_or_default();
+    let places = read(&reached).lines().filter_map(|line| line.parse().ok()).collect();
+    let test =
+        Test { program: number, name: name.to_owned(), form, seconds: of_processor(&read(&times)), places };
+    Ok((end == End::Passed).then_some(test))
 }
 
 /// The seconds of a processor that a shell's children had, by its command `times`: on a busy machine they are

@@ -16,10 +16,7 @@ use super::{
     list::Mutant,
     schema::{Schema, Site, schema},
 };
-use crate::{
-    Error, Tree,
-    project::{self, LIBRARIES},
-};
+use crate::{Error, Tree, project::LIBRARIES};
 
 /// The crate by which code asks for the active mutant.
 const RUNTIME: &str = include_str!("runtime.txt");
@@ -47,8 +44,17 @@ pub(super) struct Built {
     /// For each mutant that compiles, the first of its place.
     pub(super) places: HashMap<u32, u32>,
     pub(super) programs: Vec<Program>,
-    /// A digest of all Rust in the copy.
+    /// A digest of the programs.
     pub(super) digest: String,
+}
+
+fn digest(programs: &[Program]) -> Result<String, Error> {
+    let mut digest = Sha256::new();
+    for Program { path, name, .. } in programs {
+        digest.update(name);
+        digest.update(fs::read(path).map_err(Error::at(path))?);
+    }
+    Ok(hex(digest))
 }
 
 impl MutatedProject {
@@ -100,7 +106,8 @@ impl MutatedProject {
                     site.arms.iter().map(move |(id, _)| (*id, first)).collect::<Vec<_>>()
                 };
                 let places = sites.flat_map(of_site).collect();
-                return Ok(Built { places, programs: self.programs()?, digest: self.digest()? });
+                let programs = self.programs()?;
+                return Ok(Built { places, digest: digest(&programs)?, programs });
             }
             if left_out.len() == before {
                 return Err(Error::Step { command: "cargo check, with mutants".to_owned() });
@@ -166,17 +173,6 @@ impl MutatedProject {
         let mut programs: Vec<Program> = programs.collect();
         programs.sort_by(|one, other| one.name.cmp(&other.name));
         Ok(programs)
-    }
-
-    fn digest(&self) -> Result<String, Error> {
-        let mut digest = Sha256::new();
-        let mut files = project::files(&root())?;
-        files.retain(|file| file.starts_with("crates") && file.extension().is_some_and(|kind| kind == "rs"));
-        for file in files {
-            let path = self.folder.join(file);
-            digest.update(fs::read(&path).map_err(Error::at(&path))?);
-        }
-        Ok(hex(digest))
     }
 
     /// The messages of cargo, run in the copy over all libraries.

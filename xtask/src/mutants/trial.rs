@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     list::Mutant,
-    suite::{End, Test, run},
+    suite::{End, Form, Test, run},
     tree::Program,
 };
 use crate::Error;
@@ -33,7 +33,7 @@ pub(super) enum Outcome {
 /// The programs and tests that all trials share.
 pub(super) struct Bench<'a> {
     pub(super) programs: &'a [Program],
-    /// The shortest first.
+    /// Short forms and tests without one before all others; of both the shortest first.
     pub(super) tests: &'a [Test],
     /// The first mutant of each mutant's place.
     pub(super) place: HashMap<u32, u32>,
@@ -94,9 +94,14 @@ impl<'a> Bench<'a> {
 
     /// Runs tests, by their programs.
     fn batch(&self, mutant: &Mutant, numbers: &[usize]) -> Result<Option<Outcome>, Error> {
-        for (at, program) in self.programs.iter().enumerate() {
-            let own: Vec<usize> =
-                numbers.iter().copied().filter(|&number| self.tests[number].program == at).collect();
+        let kinds = [Form::Short, Form::Only, Form::Whole];
+        let runs = self.programs.iter().enumerate();
+        for (at, program, form) in runs.flat_map(|(at, program)| kinds.map(|form| (at, program, form))) {
+            let is_own = |number: &usize| {
+                let test = &self.tests[*number];
+                (test.program, test.form) == (at, form)
+            };
+            let own: Vec<usize> = numbers.iter().copied().filter(is_own).collect();
             if own.is_empty() {
                 continue;
             }
@@ -104,7 +109,7 @@ impl<'a> Bench<'a> {
             let seconds: f64 = own.iter().map(|&number| self.tests[number].seconds).sum();
             let longest = Duration::from_secs_f64(10.0 + 10.0 * seconds);
             let told = |name: &str| format!("{} {name}", program.name);
-            match run(program, &names, ("MUTANT", &mutant.id.to_string()), longest)? {
+            match run(program, (&names, form), ("MUTANT", &mutant.id.to_string()), longest)? {
                 End::Passed => {}
                 End::Failed(name) => {
                     let killer = own.iter().find(|&&number| self.tests[number].name == name);
