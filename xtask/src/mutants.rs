@@ -9,10 +9,10 @@
 //! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first, and random
 //! suites on a few maps before they are run on all.
 //!
-//! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on where
-//! it was; `--again` tries those that survived, with the tests of today. The record is
-//! `docs/proof/mutants.json`. Each survivor is explained in `mutants/explained.json`, or the run says that it
-//! is not.
+//! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on
+//! where it was; `--again` tries those that survived, with the tests of today. The record is
+//! `docs/proof/mutants.json`. Each survivor is explained in `mutants/explained.json`, or the run says that
+//! it is not.
 
 mod list;
 mod record;
