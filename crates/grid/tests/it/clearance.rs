@@ -204,18 +204,33 @@ fn radii_that_are_none_are_refused() {
     assert_eq!(clearance.for_disc(f64::from_bits(1)).expect("a radius").free_cells(), 9);
 }
 
-/// The change of another map: nothing of the known one is kept.
+/// The change of another map: nothing of the known one is kept. The maps are large enough for a repair of
+/// their own changes, which obstacles all around keep small.
 #[test]
 fn the_change_of_another_map_is_measured_anew() {
-    let [own, other] =
-        [(2, 2), (7, 7)].map(|wall| Arc::new(Grid::from_fn(9, 9, |x, y| (x, y) == wall).expect("a map")));
-    let change = Change::new(other).edit_cells([(4, 0, true)]);
+    let [own, other] = [0, 1].map(|odd| {
+        let is_wall = |x: u32, y: u32| (x + 2 * odd) % 6 == 0 && y % 6 == 0;
+        Arc::new(Grid::from_fn(90, 80, is_wall).expect("a map"))
+    });
+    let change = Change::new(other).edit_cells([(45, 45, true)]);
     for (fit, outside) in KINDS {
         let after = Clearance::new(Arc::clone(&own), fit, outside).after(&change);
         let new = Clearance::new(Arc::clone(change.after()), fit, outside);
-        for at in (0..9).flat_map(|y| (0..9).map(move |x| Vertex::new(x, y))) {
+        for at in (0..80).flat_map(|y| (0..90).map(move |x| Vertex::new(x, y))) {
             assert_eq!(after.distance(at), new.distance(at), "{at}, {fit:?}, {outside:?}");
         }
+    }
+}
+
+/// On a map without obstacles discs of any size fit if the outside is open, and none of them if it is not.
+#[test]
+fn the_last_obstacle_goes() {
+    let map = Arc::new(Grid::from_fn(90, 80, |x, y| (x, y) == (1, 1)).expect("a map"));
+    let change = Change::new(Arc::clone(&map)).edit_cells([(1, 1, false)]);
+    for (fit, outside) in KINDS {
+        let after = Clearance::new(Arc::clone(&map), fit, outside).after(&change);
+        let fits = after.for_disc(f64::MAX).expect("a radius").free_cells() > 0;
+        assert_eq!(fits, outside == Outside::Open, "{fit:?}, {outside:?}");
     }
 }
 
