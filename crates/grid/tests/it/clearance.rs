@@ -209,7 +209,7 @@ fn radii_that_are_none_are_refused() {
 #[test]
 fn the_change_of_another_map_is_measured_anew() {
     let [own, other] = [0, 1].map(|odd| {
-        let is_wall = |x: u32, y: u32| (x + 2 * odd) % 6 == 0 && y % 6 == 0;
+        let is_wall = |x: u32, y: u32| (x + 2 * odd).is_multiple_of(6) && y.is_multiple_of(6);
         Arc::new(Grid::from_fn(90, 80, is_wall).expect("a map"))
     });
     let change = Change::new(other).edit_cells([(45, 45, true)]);
