@@ -92,12 +92,12 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     let until = options.minutes.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
     let mutants = mutants()?;
+    let sources = digests(&mutants)?;
     let project = MutatedProject::new(&mutants)?;
     let built = project.build(&mutants)?;
     let folder = root().join("target/mutants");
     let tests = tests(&built, &folder, options.threads)?;
     let file = folder.join("outcomes.jsonl");
-    let sources = digests(&mutants)?;
     let mut known = outcomes(&file, &sources);
     let is_asked = |mutant: &&Mutant| {
         options.groups.is_empty() || options.groups.iter().any(|name| name == mutant.group)

@@ -3,7 +3,7 @@
 use std::sync::{Arc, atomic::AtomicBool};
 
 use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph, CostSurface};
-use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
+use mediant_grid::{CornerRule, DiagonalGap, Interrupt, Rules, Vertex};
 use mediant_oracle::{Rng, random_free_vertex};
 
 use crate::common::{for_random_maps, graph, vertices};
@@ -174,4 +174,36 @@ fn other_changes_than_these_are_refused() {
     let stopped = Interrupt::new().cancel(Arc::new(AtomicBool::new(true)));
     let stopped = field.repaired(&after, &[(3, 4), (20, 20)], &stopped);
     assert!(matches!(stopped, Err(CostFieldError::Interrupted(_))));
+}
+
+/// Of the first so many of a list of cells, which are blocked or cost more or less, so many are repaired: the
+/// rest are made anew. No field shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    let map = land(90);
+    let mut rng = Rng::new(5);
+    let cells: Vec<(u32, u32)> = (0..40).map(|_| (rng.below(90), rng.below(90))).collect();
+    let repaired = |rules: Rules, k: u32, cost: Option<f64>, limit: f64| {
+        let before = graph(&map, rules, k);
+        let sources = [Vertex::new(50, 50), Vertex::new(3, 80)];
+        let query = CostFieldQuery::new(&sources).within(limit);
+        let field = CostField::new(Arc::clone(&before), query, &Interrupt::NEVER).expect("free");
+        let is_repaired = |&count: &usize| {
+            let cells = &cells[..count];
+            let map = map.edit(cells.iter().map(|&(x, y)| (x, y, cost))).expect("within the bounds");
+            let after = Arc::new(before.after(Arc::new(map), cells).expect("the same k"));
+            field.repaired(&after, cells, &Interrupt::NEVER).expect("the sources are free").is_some()
+        };
+        (1..=cells.len()).filter(is_repaired).count()
+    };
+    let rules = [Rules::Center(CornerRule::One), Rules::Corner(DiagonalGap::Open)];
+    let found = rules.map(|rules| {
+        [2, 4].map(|k| {
+            [None, Some(1.0), Some(9.0)]
+                .map(|cost| [f64::INFINITY, 60.0].map(|limit| repaired(rules, k, cost, limit)))
+        })
+    });
+    let at_centers = [[[8, 40], [18, 40], [8, 40]], [[10, 40], [18, 29], [10, 40]]];
+    let at_corners = [[[18, 40], [18, 35], [20, 40]], [[8, 39], [18, 20], [8, 40]]];
+    assert_eq!(found, [at_centers, at_corners]);
 }

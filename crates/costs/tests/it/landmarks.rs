@@ -202,3 +202,28 @@ fn numbers_of_landmarks_are_checked_and_maps_without_free_cells_have_none() {
     assert_eq!((index.count(), index.memory_bytes()), (8, Landmarks::bytes(&graph, 5)));
     assert_consistent(&graph, &index, "no cell is free");
 }
+
+/// Of the first so many of a list of cells that become cheaper, so many are repaired: for the rest landmarks
+/// are made anew. No path shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    let map = land(80, 60);
+    let mut rng = Rng::new(5);
+    let cells: Vec<(u32, u32)> = (0..30).map(|_| (rng.below(80), rng.below(60))).collect();
+    let found = [Rules::Center(CornerRule::One), Rules::Corner(DiagonalGap::Closed)].map(|rules| {
+        [2, 5].map(|k| {
+            let before = graph(&map, rules, k);
+            let index = landmarks(&before, 3);
+            let is_repaired = |&count: &usize| {
+                let cells = &cells[..count];
+                let after =
+                    map.edit(cells.iter().map(|&(x, y)| (x, y, Some(1.0)))).expect("within the bounds");
+                let after = graph(&Arc::new(after), rules, k);
+                let found = index.repaired_if_quicker(&before, &after, cells, &Interrupt::NEVER);
+                found.expect("the change of this graph").is_some()
+            };
+            (1..=cells.len()).filter(is_repaired).count()
+        })
+    });
+    assert_eq!(found, [[12, 7], [8, 5]]);
+}

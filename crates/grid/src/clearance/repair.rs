@@ -254,3 +254,34 @@ fn downwards(sites: Sites<'_>, (x, y): At) -> Option<usize> {
     }
     (sites.outside == Outside::Blocked).then_some(height - y)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::{super::Fit, *};
+    use crate::Rectangle;
+
+    /// Of squares with sides of 1 to 60 cells that are blocked, and of those that are freed, so many are
+    /// repaired: more would take longer than a new transform, and fewer would be given up in vain. No clearance
+    /// shows it.
+    #[test]
+    fn so_many_changes_are_repaired() {
+        let is_wall = |x: u32, y: u32| (x * 7 + y * 13).is_multiple_of(41) || x % 24 == 5 && y % 17 > 3;
+        let map = Arc::new(Grid::from_fn(200, 150, is_wall).expect("a map"));
+        let repaired = |fit, outside, is_blocked| {
+            let clearance = Clearance::new(Arc::clone(&map), fit, outside);
+            let is_repaired = |&side: &u32| {
+                let change = Change::new(Arc::clone(&map));
+                let change = change.edit(Rectangle::new(70, 50, side, side), |_, _| is_blocked);
+                Repair::new(&clearance, &change).follow(&change).is_some()
+            };
+            (1..=60).filter(is_repaired).count()
+        };
+        let found = [Fit::Centers, Fit::WholeCells].map(|fit| {
+            [Outside::Open, Outside::Blocked]
+                .map(|outside| [true, false].map(|is_blocked| repaired(fit, outside, is_blocked)))
+        });
+        assert_eq!(found, [[[29, 22]; 2], [[34, 23]; 2]]);
+    }
+}

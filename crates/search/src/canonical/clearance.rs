@@ -277,4 +277,25 @@ mod tests {
             assert!(seed % 6 == 0 || repaired > 4, "seed {seed}: {repaired} of 40");
         });
     }
+
+    /// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
+    /// repaired: for the rest all is made anew. No path shows it.
+    #[test]
+    fn so_many_changes_are_repaired() {
+        fn repaired<P: Placement>() -> [usize; 2] {
+            let (rng, never) = (&mut Rng::new(3), &Interrupt::NEVER);
+            let map = Arc::new(rooms(rng, 170, 140));
+            let cells: Vec<(u32, u32)> = (0..200).map(|_| (rng.below(170), rng.below(140))).collect();
+            let clearance = Clearance::new::<P>(&map, never).unwrap();
+            [true, false].map(|is_blocked| {
+                let is_repaired = |&count: &usize| {
+                    let cells = cells[..count].iter().map(|&(x, y)| (x, y, is_blocked));
+                    let change = Change::new(Arc::clone(&map)).edit_cells(cells);
+                    clearance.repaired::<P>(&change, never).unwrap().is_some()
+                };
+                (1..=cells.len()).filter(is_repaired).count()
+            })
+        }
+        assert_eq!([repaired::<Centers>(), repaired::<Corners>()], [[12, 48]; 2]);
+    }
 }

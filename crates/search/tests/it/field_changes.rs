@@ -281,3 +281,38 @@ fn fields_are_refused_what_is_not_theirs() {
         (None, Some(Cost::from_bits(1 << 32)))
     );
 }
+
+/// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
+/// repaired: for the rest the field is made anew. No field shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    fn repaired<P: Placement>(rule: P::Rule, k: u32, limit: f64) -> [usize; 2] {
+        let (k, mut rng) = (FiniteK::new(k).unwrap(), Rng::new(7));
+        let grid = Arc::new(rooms(&mut rng, 170, 130));
+        let mut cells: Vec<(u32, u32)> = (0..400).map(|_| (rng.below(170), rng.below(130))).collect();
+        cells.retain(|cell| !(60..64).contains(&cell.0));
+        let graph = Arc::new(GridGraph::<P>::new(Arc::clone(&grid), k, rule).unwrap());
+        let at = (50..120).map(|y| Vertex::new(62, y)).find(|&at| graph.is_free(at)).unwrap();
+        let mut fields = makers(&graph, &Arc::new(CanonicalRule::<P>::new(k, rule)));
+        let field = fields.field(FieldQuery::new(&[at]).within(limit)).unwrap();
+        [true, false].map(|is_blocked| {
+            let is_repaired = |&count: &usize| {
+                let cells = cells[..count].iter().map(|&(x, y)| (x, y, is_blocked));
+                let change = Change::new(Arc::clone(&grid)).edit_cells(cells);
+                let after = Arc::new(GridGraph::in_space(&graph.after(&change), k).unwrap());
+                field.repaired(after, &change, &Interrupt::NEVER).unwrap().is_some()
+            };
+            (1..=cells.len()).filter(is_repaired).count()
+        })
+    }
+    let found = [f64::INFINITY, 60.0, 20.0].map(|limit| {
+        [
+            repaired::<Centers>(CornerRule::Never, 3, limit),
+            repaired::<Centers>(CornerRule::One, 5, limit),
+            repaired::<Corners>(DiagonalGap::Open, 2, limit),
+            repaired::<Corners>(DiagonalGap::Closed, 4, limit),
+        ]
+    });
+    let within_20 = [[1, 10], [1, 8], [1, 10], [1, 8]];
+    assert_eq!(found, [[[7, 16], [5, 10], [6, 12], [5, 10]], [[5, 10]; 4], within_20]);
+}

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Corners, DiagonalGap, FreeSpace, Interrupt};
+use mediant_grid::{Change, Corners, DiagonalGap, FreeSpace, Interrupt};
 use mediant_moves::{FiniteK, K};
 use mediant_oracle::{Rng, caves, noise, on_all_cores, random_change, rooms, seeds, suite_grid};
 
@@ -68,4 +68,28 @@ fn a_graph_that_follows_edits_equals_a_new_one() {
     });
     let [followed, all] = tallies.into_iter().fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
     assert!(followed > all / 3, "{followed} of {all} edits were followed");
+}
+
+/// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
+/// repaired: for the rest the graph is made anew. No path shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    let mut rng = Rng::new(9);
+    let grid = Arc::new(rooms(&mut rng, 90, 70));
+    let cells: Vec<(u32, u32)> = (0..60).map(|_| (rng.below(90), rng.below(70))).collect();
+    let space = FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Closed);
+    let found = [1, 3].map(|levels| {
+        let levels = Hierarchy::Levels(std::num::NonZeroU32::new(levels).expect("at least one"));
+        let (graph, record) = new(&space, FiniteK::N8.into(), levels);
+        [true, false].map(|is_blocked| {
+            let is_repaired = |&count: &usize| {
+                let cells = cells[..count].iter().map(|&(x, y)| (x, y, is_blocked));
+                let change = Change::new(Arc::clone(&grid)).edit_cells(cells);
+                let repaired = record.repaired(&graph, &space.after(&change), &change, &Interrupt::NEVER);
+                repaired.expect("there is a graph for this k").is_some()
+            };
+            (1..=cells.len()).filter(is_repaired).count()
+        })
+    });
+    assert_eq!(found, [[14, 10]; 2]);
 }

@@ -284,6 +284,37 @@ fn repaired_finders_lose_no_path() {
     assert!(stuck_to_reach > 2, "{stuck_to_reach}");
 }
 
+/// Of the first so many of a list of cells that change, so many are repaired: for the rest planes are made anew.
+/// No path shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    fn repaired<P: Placement>(rule: P::Rule, k: u32) -> usize {
+        let (rng, never) = (&mut Rng::new(11), &Interrupt::NEVER);
+        let map = Arc::new(rooms(rng, 150, 120));
+        let cells: Vec<(u32, u32)> = (0..300).map(|_| (rng.below(150), rng.below(120))).collect();
+        let first = graph::<P>(&map, rule, k);
+        let is = planes(&first, &Pruning::new(&first), REACH);
+        let is_repaired = |&count: &usize| {
+            let cells = cells[..count].iter().map(|&(x, y)| (x, y, map.is_free(x as i32, y as i32)));
+            let change = Change::new(Arc::clone(&map)).edit_cells(cells);
+            let graph = graph::<P>(change.after(), rule, k);
+            let pruning = Pruning::new(&graph);
+            let stops = (&is.axial, &is.diagonals, REACH);
+            Repair::new(&graph, pruning.table().unwrap(), stops, never).follow(&change).is_ok()
+        };
+        (1..=cells.len()).filter(is_repaired).count()
+    }
+    let found = [2, 3].map(|k| {
+        [
+            repaired::<Centers>(CornerRule::Never, k),
+            repaired::<Centers>(CornerRule::Always, k),
+            repaired::<Corners>(DiagonalGap::Open, k),
+            repaired::<Corners>(DiagonalGap::Closed, k),
+        ]
+    });
+    assert_eq!(found, [[21, 21, 43, 4], [37, 275, 67, 4]]);
+}
+
 #[test]
 fn changes_of_other_maps_are_refused() {
     let map = Arc::new(noise(&mut Rng::new(1), 20, 10, 20));

@@ -389,3 +389,36 @@ fn changes_of_other_maps_are_refused() {
     assert_eq!(table.repaired(&before, &old, &nothing, never), Ok(table.clone()));
     assert_eq!(table.repaired(&after, &new, &change, never).unwrap().identity(), after.identity());
 }
+
+/// Of the first so many of a list of cells that change, the lists of so many are repaired: for the rest they are
+/// made anew. No path shows it.
+#[test]
+fn so_many_changes_are_repaired() {
+    fn repaired<P: Placement>(rule: P::Rule, k: u32) -> usize {
+        let (rng, never) = (&mut Rng::new(11), &Interrupt::NEVER);
+        let map = Arc::new(noise(rng, 250, 200, 1));
+        let cells: Vec<(u32, u32)> = (0..40).map(|_| (rng.below(250), rng.below(200))).collect();
+        let first = &graph::<P>(&map, rule, k);
+        let pruning = &Pruning::new(first);
+        let blocks = BlockFinder::with_planes(first, planes(first, pruning, 0));
+        let recorder = Recorder { graph: first, pruning, blocks: &blocks };
+        let lists = JumpLists::new(&recorder, &DeadEndRows::default(), never).unwrap();
+        let stops = (blocks.axial_stops(), blocks.diagonal_stops(), 0);
+        let is_repaired = |&count: &usize| {
+            let cells = cells[..count].iter().map(|&(x, y)| (x, y, map.is_free(x as i32, y as i32)));
+            let change = Change::new(Arc::clone(&map)).edit_cells(cells);
+            let graph = &graph::<P>(change.after(), rule, k);
+            let pruning = &Pruning::new(graph);
+            let repair = Repair::new(graph, pruning.table().unwrap(), stops, never).without_limit();
+            let (axial, diagonals, altered) = repair.follow(&change).unwrap();
+            let planes = JumpPlanes { axial, diagonals, dead_ends: DeadEndRows::default(), reach: 0 };
+            let next = BlockFinder::with_planes(graph, planes);
+            let recorder = Recorder { graph, pruning, blocks: &next };
+            lists.repaired(&recorder, blocks.axial_stops(), &altered, never).is_ok()
+        };
+        (1..=cells.len()).filter(is_repaired).count()
+    }
+    let found = [2, 3]
+        .map(|k| [repaired::<Centers>(CornerRule::Never, k), repaired::<Centers>(CornerRule::Always, k)]);
+    assert_eq!(found, [[8, 8], [10, 11]]);
+}
