@@ -7,7 +7,8 @@
 //! ten seconds, and there are thousands. So all are put into a copy of the sources, each behind a question
 //! for the active mutant (`schema`), and one number in the environment makes it active. Each test is run once
 //! to see to which mutants it comes; a mutant is tried by these tests alone, the shortest first, and random
-//! suites on a few maps before they are run on all.
+//! suites on a few maps before they are run on all. A suite that counts what it finds fails on a few; with a
+//! mutant it has to fail somewhere else then.
 //!
 //! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on
 //! where it was; `--again` tries those that survived, with the tests of today. The record is
@@ -111,6 +112,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     open.sort_by_key(|mutant| groups.iter().position(|group| *group == mutant.group));
     println!("{} mutants, {} tests; {} to be tried", mutants.len(), tests.len(), open.len());
     let bench = Bench::new(&built.programs, &tests, built.places, options.longest);
+    bench.remember(known.iter().filter_map(|(key, outcome)| Some((key.split_once(':')?.0, outcome))));
     let out = fs::OpenOptions::new().append(true).create(true).open(&file).map_err(Error::at(&file))?;
     let out = Mutex::new(out);
     let tried = in_parallel(options.threads, &open, |_, mutant| {

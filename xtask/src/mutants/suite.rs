@@ -28,6 +28,8 @@ pub(super) struct Test {
     pub(super) program: usize,
     pub(super) name: String,
     pub(super) form: Form,
+    /// The place where its short form fails without a mutant, since it counts what it finds on its maps.
+    pub(super) fails_at: Option<String>,
     /// Of a processor.
     pub(super) seconds: f64,
     /// The places to which it comes, each by its first mutant.
@@ -49,8 +51,8 @@ pub(super) enum Form {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum End {
     Passed,
-    /// In this test.
-    Failed(String),
+    /// In this test, and at this place of the sources.
+    Failed(String, String),
     /// Not within its time: in this test.
     Late(String),
 }
@@ -84,22 +86,31 @@ fn run_by(
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
     let mut child = command.spawn().map_err(Error::at(&program.path))?;
     let out = child.stdout.take().map(BufReader::new);
-    // The program names a test before it runs it.
-    let last = thread::spawn(move || {
+    let told = thread::spawn(move || {
         let lines = out.into_iter().flat_map(|out| out.split(b'\n')).map_while(Result::ok);
-        let named = lines.filter_map(|line| {
-            let line = String::from_utf8_lossy(&line).into_owned();
-            line.strip_prefix("test ")?.split_once(" ... ").map(|(name, _)| name.to_owned())
-        });
-        named.last().unwrap_or_default()
+        last_and_place(lines.map(|line| String::from_utf8_lossy(&line).into_owned()))
     });
     let status = status(&mut child, longest).map_err(Error::at(&program.path))?;
-    let last = last.join().unwrap_or_default();
+    let (last, place) = told.join().unwrap_or_default();
     Ok(match status {
         Some(status) if status.success() => End::Passed,
-        Some(_) => End::Failed(last),
+        Some(_) => End::Failed(last, place),
         None => End::Late(last),
     })
+}
+
+/// The last test that a program names, which it does before it runs it; and the first place of a panic.
+fn last_and_place(lines: impl Iterator<Item = String>) -> (String, String) {
+    let (mut last, mut place) = (String::new(), String::new());
+    for line in lines {
+        if let Some((name, _)) = line.strip_prefix("test ").and_then(|line| line.split_once(" ... ")) {
+            name.clone_into(&mut last);
+        }
+        if let (true, Some((_, at))) = (place.is_empty(), line.split_once(" panicked at ")) {
+            at.trim_end_matches(':').clone_into(&mut place);
+        }
+    }
+    (last, place)
 }
 
 /// The status of a process that ends in time; another one is killed.
@@ -133,12 +144,12 @@ pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Resu
     }
     let tests = super::in_parallel(threads, &all, |worker, (number, name)| {
         let of = |form| measured((*number, &programs[*number]), (name, form), folder, worker);
-        let Some(whole) = of(Form::Only)? else {
+        let whole = of(Form::Only)?;
+        if whole.fails_at.is_some() {
             println!("left out, since it fails without a mutant: {} {name}", programs[*number].name);
             return Ok(Vec::new());
-        };
-        // A suite that counts what it found fails in its short form.
-        let short = if whole.seconds > 0.2 { of(Form::Short)? } else { None };
+        }
+        let short = if whole.seconds > 0.2 { Some(of(Form::Short)?) } else { None };
         Ok(match short.filter(|short| 2.0 * short.seconds < whole.seconds) {
             Some(short) => vec![short, Test { form: Form::Whole, ..whole }],
             None => vec![whole],
@@ -147,23 +158,28 @@ pub(super) fn tests(programs: &[Program], folder: &Path, threads: usize) -> Resu
     Ok(tests.into_iter().flatten().collect())
 }
 
-/// A test that is run once without a mutant; `None` if it fails.
+/// A test that is run once without a mutant.
 fn measured(
     (number, program): (usize, &Program),
     (name, form): (&str, Form),
     folder: &Path,
     worker: usize,
-) -> Result<Option<Test>, Error> {
+) -> Result<Test, Error> {
     let reached = folder.join(format!("reached-{worker}")).to_string_lossy().into_owned();
     let times = format!("{reached}.times");
     [&reached, &times].into_iter().for_each(|file| _ = fs::remove_file(file));
-    let (line, variable) = (r#""$0" "$@" && times >"$MUTANT_REACH.times""#, ("MUTANT_REACH", &*reached));
+    let line = r#""$0" "$@"; code=$?; times >"$MUTANT_REACH.times"; exit $code"#;
+    let variable = ("MUTANT_REACH", &*reached);
     let end = run_by(line, program, (&[name], form), variable, Duration::from_secs(1200))?;
     let read = |file: &str| fs::read_to_string(file).unwrap_or_default();
     let places = read(&reached).lines().filter_map(|line| line.parse().ok()).collect();
-    let test =
-        Test { program: number, name: name.to_owned(), form, seconds: of_processor(&read(&times)), places };
-    Ok((end == End::Passed).then_some(test))
+    let seconds = of_processor(&read(&times));
+    let fails_at = match end {
+        End::Passed => None,
+        End::Failed(_, place) => Some(place),
+        End::Late(_) => Some(String::new()),
+    };
+    Ok(Test { program: number, name: name.to_owned(), form, fails_at, seconds, places })
 }
 
 /// The seconds of a processor that a shell's children had, by its command `times`: on a busy machine they are

@@ -1,7 +1,7 @@
 //! A mutant is tried: the tests that come to its place run with it, until one fails.
 
 use std::{
-    collections::{HashMap, VecDeque},
+    collections::{BTreeMap, HashMap, VecDeque},
     sync::{Mutex, PoisonError},
     time::Duration,
 };
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     list::Mutant,
-    suite::{End, Form, Test, run},
+    suite::{self, End, Form, Test},
     tree::Program,
 };
 use crate::Error;
@@ -51,6 +51,25 @@ impl<'a> Bench<'a> {
         longest: f64,
     ) -> Self {
         Self { programs, tests, place, longest, killers: Mutex::default() }
+    }
+
+    /// Learns from known outcomes, of mutants of a file, which tests kill most there.
+    pub(super) fn remember<'k>(&self, known: impl Iterator<Item = (&'k str, &'k Outcome)>) {
+        let mut numbers = HashMap::new();
+        for (number, test) in self.tests.iter().enumerate() {
+            numbers.entry(format!("{} {}", self.programs[test.program].name, test.name)).or_insert(number);
+        }
+        let mut kills: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+        for (file, outcome) in known {
+            if let Outcome::Killed(by) = outcome
+                && let Some(&number) = numbers.get(by)
+            {
+                *kills.entry((file, number)).or_default() += 1;
+            }
+        }
+        let mut kills: Vec<((&str, usize), usize)> = kills.into_iter().collect();
+        kills.sort_by_key(|&(_, count)| count);
+        kills.into_iter().for_each(|((file, number), _)| self.add_killer(file, number));
     }
 
     /// Tries a mutant.
@@ -102,24 +121,44 @@ impl<'a> Bench<'a> {
                 (test.program, test.form) == (at, form)
             };
             let own: Vec<usize> = numbers.iter().copied().filter(is_own).collect();
-            if own.is_empty() {
-                continue;
-            }
-            let names: Vec<&str> = own.iter().map(|&number| &*self.tests[number].name).collect();
-            let seconds: f64 = own.iter().map(|&number| self.tests[number].seconds).sum();
-            let longest = Duration::from_secs_f64(10.0 + 10.0 * seconds);
-            let told = |name: &str| format!("{} {name}", program.name);
-            match run(program, (&names, form), ("MUTANT", &mutant.id.to_string()), longest)? {
-                End::Passed => {}
-                End::Failed(name) => {
-                    let killer = own.iter().find(|&&number| self.tests[number].name == name);
-                    killer.into_iter().for_each(|&number| self.add_killer(&mutant.file, number));
-                    return Ok(Some(Outcome::Killed(told(&name))));
+            // Whoever fails without a mutant is run alone.
+            let (alone, own): (Vec<usize>, Vec<usize>) =
+                own.into_iter().partition(|&number| self.tests[number].fails_at.is_some());
+            let runs = alone.into_iter().map(|number| vec![number]).chain([own]);
+            for own in runs.filter(|own| !own.is_empty()) {
+                if let Some(outcome) = self.run(mutant, (program, form), &own)? {
+                    return Ok(Some(outcome));
                 }
-                End::Late(name) => return Ok(Some(Outcome::Late(told(&name)))),
             }
         }
         Ok(None)
+    }
+
+    /// Runs tests of one program and form; one that fails where it fails without a mutant has passed.
+    fn run(
+        &self,
+        mutant: &Mutant,
+        (program, form): (&Program, Form),
+        own: &[usize],
+    ) -> Result<Option<Outcome>, Error> {
+        let names: Vec<&str> = own.iter().map(|&number| &*self.tests[number].name).collect();
+        let seconds: f64 = own.iter().map(|&number| self.tests[number].seconds).sum();
+        let longest = Duration::from_secs_f64(10.0 + 10.0 * seconds);
+        let told = |name: &str| format!("{} {name}", program.name);
+        Ok(match suite::run(program, (&names, form), ("MUTANT", &mutant.id.to_string()), longest)? {
+            End::Passed => None,
+            End::Failed(name, place) => {
+                let Some(&number) = own.iter().find(|&&number| self.tests[number].name == name) else {
+                    return Ok(Some(Outcome::Killed(told(&name))));
+                };
+                if self.tests[number].fails_at.as_ref() == Some(&place) {
+                    return Ok(None);
+                }
+                self.add_killer(&mutant.file, number);
+                Some(Outcome::Killed(told(&name)))
+            }
+            End::Late(name) => Some(Outcome::Late(told(&name))),
+        })
     }
 
     fn likely(&self, file: &str) -> Vec<usize> {
