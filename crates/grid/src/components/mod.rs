@@ -392,4 +392,31 @@ mod tests {
         assert!(components.count() > 2000);
         assert_eq!(components.memory_bytes(), tiles + 4 * regions);
     }
+
+    /// Of the changes of small rectangles in a tile, so many are known to join and part nothing, and after so
+    /// many is known how regions are joined: all other work would be in vain, and no component shows it.
+    #[test]
+    fn so_much_is_known_after_small_changes() {
+        let hash = |x: u32, y: u32| (x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(40_503)) >> 7;
+        let map = Arc::new(Grid::from_fn(130, 70, |x, y| hash(x, y) % 100 < 35).expect("a map"));
+        let counts = [Connectivity::Four, Connectivity::Eight].map(|connectivity| {
+            let components = Components::new(&map, connectivity);
+            assert!(components.count() > 1);
+            let (mut patched, mut joined) = (0, 0);
+            for number in 0..2_000 {
+                let [wide, high] = [1 + number % 7, 1 + number / 7 % 7];
+                let (x, y) = (hash(number, 1) % (65 - wide), hash(number, 2) % (65 - high));
+                let percent = [0, 20, 50, 100][(number / 49 % 4) as usize];
+                let change = Change::new(Arc::clone(&map))
+                    .edit(Rectangle::new(x, y, wide, high), |x, y| hash(x + number, y) % 100 < percent);
+                let changed = Changed { rows: [y, y + high - 1], columns: [x, x + wide - 1] };
+                let row_of = |map: &Arc<Grid>, row: u32| word(map, 0, row as usize);
+                let rows = (|row| row_of(&map, row), |row| row_of(change.after(), row));
+                patched += u32::from(components.tiles[0][0].patched(changed, rows, connectivity).is_some());
+                joined += u32::from(Arc::ptr_eq(&components.joined, &components.after(&change).joined));
+            }
+            [patched, joined]
+        });
+        assert_eq!(counts, [[405, 1_865], [706, 1_986]]);
+    }
 }
