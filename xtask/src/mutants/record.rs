@@ -51,7 +51,10 @@ struct Counts {
     unreached: usize,
     killed: usize,
     late: usize,
+    /// All their tests pass.
     survived: usize,
+    /// The tests pass for which there was time.
+    unsettled: usize,
     explained: usize,
 }
 
@@ -76,14 +79,14 @@ pub(super) fn tell(
                 Some(Outcome::Unreached) => counts.unreached += 1,
                 Some(Outcome::Killed(_)) => counts.killed += 1,
                 Some(Outcome::Late(_)) => counts.late += 1,
-                Some(Outcome::Survived(..)) => {
-                    counts.survived += 1;
+                Some(Outcome::Survived(_, by_all)) => {
+                    *(if *by_all { &mut counts.survived } else { &mut counts.unsettled }) += 1;
                     let is_explained = explained.iter().any(|explained| explained.holds(mutant));
                     counts.explained += usize::from(is_explained);
                 }
             }
         }
-        survivors += counts.survived - counts.explained;
+        survivors += counts.survived + counts.unsettled - counts.explained;
         println!("{group}: {counts:?}");
         rows.push(row(group, counts));
     }
@@ -108,6 +111,7 @@ fn row(group: &str, counts: Counts) -> Row {
         ("killed", counts.killed),
         ("late", counts.late),
         ("survived", counts.survived),
+        ("unsettled", counts.unsettled),
         ("explained", counts.explained),
     ];
     let row = Row::new().key("group", group);
@@ -136,7 +140,8 @@ fn record(rows: Vec<Row>, all: usize, open: usize) -> Record {
             of("killed", "changes for which a test fails"),
             of("late", "changes for which a test does not end"),
             of("survived", "changes that no test notices"),
-            of("explained", "survivors with a reason: they change no answer"),
+            of("unsettled", "changes that no test notices for which there was time"),
+            of("explained", "those of both with a reason: they change no answer"),
         ],
         rows,
     }

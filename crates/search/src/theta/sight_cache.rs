@@ -151,13 +151,14 @@ impl SightCache {
 mod tests {
     use std::sync::Arc;
 
-    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap};
+    use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, Grid};
     use mediant_oracle::{Rng, random_free_vertex, suite_grid};
 
     use super::*;
 
-    /// Compares answers. Returns how many came from a block that is seen as a whole.
-    fn check<P: Placement>(rule: P::Rule, seed: u64) -> usize {
+    /// Compares answers. Returns how many came from a block that is seen as a whole, of how many blocks any
+    /// was asked for, and how many of these no vertex sees as a whole, or none of the last two.
+    fn check<P: Placement>(rule: P::Rule, seed: u64) -> [usize; 4] {
         let space = FreeSpace::<P>::new(Arc::new(suite_grid(seed).0), rule);
         let mut rng = Rng::new(seed ^ 0x51);
         let mut sight = SightCache::new(&space);
@@ -173,19 +174,40 @@ mod tests {
             let block = (to.y >> SHIFT) as usize * sight.blocks_per_row + (to.x >> SHIFT) as usize;
             clear += usize::from(sight.blocks[block].contains(&BlockSight::new(id, true)));
         }
-        clear
+        let count =
+            |is: &dyn Fn(&[BlockSight; 2]) -> bool| sight.blocks.iter().filter(|&block| is(block)).count();
+        let is_hidden = |answer: &BlockSight| answer.0 < BlockSight::UNKNOWN.0 && answer.0 & 1 == 0;
+        let never = count(&|block| block[0] == BlockSight::NEVER);
+        let hidden = count(&|block| block.iter().all(is_hidden));
+        let asked = sight.asked.len();
+        // On another map nothing is known.
+        let (width, height) = (space.grid().width(), space.grid().height());
+        let open =
+            FreeSpace::<P>::new(Arc::new(Grid::from_fn(width, height, |_, _| false).expect("a map")), rule);
+        sight.follow(&open);
+        assert!(
+            sight.asked.is_empty() && sight.blocks.iter().all(|block| *block == [BlockSight::UNKNOWN; 2])
+        );
+        [clear, asked, never, hidden]
     }
 
+    /// The counts tell how many lines are not looked along: no path does.
     #[test]
     fn what_is_remembered_is_what_is_seen() {
-        let mut clear = [0; 5];
+        let mut counts = [[0; 4]; 5];
         for seed in 0..200 {
-            clear[0] += check::<Corners>(DiagonalGap::Open, seed);
-            clear[1] += check::<Corners>(DiagonalGap::Closed, seed);
-            clear[2] += check::<Centers>(CornerRule::Never, seed);
-            clear[3] += check::<Centers>(CornerRule::One, seed);
-            clear[4] += check::<Centers>(CornerRule::Always, seed);
+            let of_map = [
+                check::<Corners>(DiagonalGap::Open, seed),
+                check::<Corners>(DiagonalGap::Closed, seed),
+                check::<Centers>(CornerRule::Never, seed),
+                check::<Centers>(CornerRule::One, seed),
+                check::<Centers>(CornerRule::Always, seed),
+            ];
+            counts.iter_mut().zip(of_map).for_each(|(sums, of_map)| {
+                sums.iter_mut().zip(of_map).for_each(|(sum, count)| *sum += count);
+            });
         }
-        assert!(clear.iter().all(|&count| count > 500), "{clear:?}");
+        let [at_corners, at_centers] = [[15_003, 1_315, 707, 272], [8_434, 968, 682, 133]];
+        assert_eq!(counts, [at_corners, at_corners, at_centers, at_centers, at_centers]);
     }
 }
