@@ -3,12 +3,13 @@
 use std::{collections::HashMap, sync::Arc};
 
 use mediant_grid::{
-    AsciiMap, Centers, CornerRule, Corners, Grid, GridGraph, Placement, Rules, Vertex, VertexId,
+    AsciiMap, Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Placement, Rules,
+    Vertex, VertexId,
 };
 use mediant_moves::{Cost, FiniteK, Neighborhood};
 use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
 use mediant_search::{
-    AStar, Answer, Counters, Ends, Hk, NodeEvent, Observer, Planner,
+    AStar, Answer, AnyAngleFields, Anya, Counters, Ends, FieldQuery, Hk, NodeEvent, Observer, Planner,
     parts::{Entry, OpenList},
 };
 
@@ -218,4 +219,59 @@ fn events_tell_the_whole_search() {
         }
     }
     assert!(swaps_by_decreases > 100, "only {swaps_by_decreases} swaps by decreases");
+}
+
+/// Checks the events of a search by Anya: of each node its root, the root before that, and their costs. Returns
+/// how many nodes had a root before theirs, and of how many roots the cost is the distance.
+fn check_roots(space: &FreeSpace<Corners>, query: Ends, case: &str) -> [usize; 2] {
+    let mut log = Log::default();
+    let answer = Anya::new(space).solve_observed(query, &mut log).expect("both ends are free");
+    let Answer::Found(path) = answer else {
+        assert!(log.0.is_empty(), "{case}");
+        return [0; 2];
+    };
+    let field = AnyAngleFields::new(space).field(FieldQuery::new(&[query.start])).expect("it is free");
+    let (mut last, mut counts) = (0.0_f64, [0; 2]);
+    for event in log.0 {
+        let (node, is_expanded) = match event {
+            Event::Expanded(node) => (node, true),
+            Event::Generated(node) => (node, false),
+            other => panic!("{other:?}; {case}"),
+        };
+        let (g, f) = (node.g.to_f64(), node.f.to_f64());
+        let is_in_order = !is_expanded || f >= last - 1e-6 && f <= path.cost() + 1e-6;
+        assert!(g <= f + 1e-6 && is_in_order, "{node:?}; {case}");
+        last = if is_expanded { f } else { last };
+        let distance = |at: Vertex| field.get(at).expect("it is reached");
+        counts[1] += usize::from((g - distance(node.at)).abs() < 1e-6);
+        let Some(parent) = node.parent else {
+            assert_eq!((node.at, g), (query.start, 0.0), "{case}");
+            continue;
+        };
+        assert!(space.sees(parent, node.at), "{parent} to {}; {case}", node.at);
+        let (dx, dy) = (f64::from(parent.x - node.at.x), f64::from(parent.y - node.at.y));
+        assert!(g >= distance(parent) + dx.hypot(dy) - 1e-6, "{node:?}; {case}");
+        counts[0] += 1;
+    }
+    counts
+}
+
+#[test]
+fn events_of_anya_tell_its_roots() {
+    let mut counts = [0; 2];
+    for seed in seeds(60) {
+        let grid = Arc::new(suite_grid(seed).0);
+        for gap in DiagonalGap::ALL {
+            let space = FreeSpace::<Corners>::new(Arc::clone(&grid), gap);
+            let rng = &mut Rng::new(seed ^ 0xA47A);
+            for _ in 0..6 {
+                let mut free = || random_free_vertex(rng, &grid, Corners::KIND);
+                let (Some(start), Some(goal)) = (free(), free()) else { continue };
+                let case = describe(&grid, space.rules(), start, goal, seed);
+                let [more, exact] = check_roots(&space, Ends::new(start, goal), &case);
+                counts = [counts[0] + more, counts[1] + exact];
+            }
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 1_000), "{counts:?}");
 }
