@@ -6,10 +6,12 @@ use mediant_grid::{
     AsciiMap, Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, GridGraph, Placement, Rules,
     Vertex, VertexId,
 };
-use mediant_moves::{Cost, FiniteK, Neighborhood};
-use mediant_oracle::{Rng, describe, random_free_vertex, seeds, segment_is_legal, suite_grid};
+use mediant_moves::{Cost, FiniteK, Neighborhood, Vector, distance, distance_any_angle};
+use mediant_oracle::{
+    Explicit, Rng, Visibility, describe, random_free_vertex, seeds, segment_is_legal, suite_grid,
+};
 use mediant_search::{
-    AStar, Answer, AnyAngleFields, Anya, Counters, Ends, FieldQuery, Hk, NodeEvent, Observer, Planner,
+    AStar, Answer, Anya, Counters, Ends, Hk, NodeEvent, Norm, Observer, Planner,
     parts::{Entry, OpenList},
 };
 
@@ -221,16 +223,22 @@ fn events_tell_the_whole_search() {
     assert!(swaps_by_decreases > 100, "only {swaps_by_decreases} swaps by decreases");
 }
 
-/// Checks the events of a search by Anya: of each node its root, the root before that, and their costs. Returns
-/// how many nodes had a root before theirs, and of how many roots the cost is the distance.
-fn check_roots(space: &FreeSpace<Corners>, query: Ends, case: &str) -> [usize; 2] {
+/// Checks the events of a search by Anya: of each node its root, the root before that, and their costs, by the
+/// distances from the start and the lengths of lines. Returns how many nodes had a root before theirs, and of
+/// how many roots the cost is the distance.
+fn check_roots<N: Norm>(
+    (mut anya, space): (Anya<&FreeSpace<Corners>, N>, &FreeSpace<Corners>),
+    query: Ends,
+    case: &str,
+    distance: impl Fn(Vertex) -> f64,
+    length: impl Fn(Vector) -> f64,
+) -> [usize; 2] {
     let mut log = Log::default();
-    let answer = Anya::new(space).solve_observed(query, &mut log).expect("both ends are free");
+    let answer = anya.solve_observed(query, &mut log).expect("both ends are free");
     let Answer::Found(path) = answer else {
         assert!(log.0.is_empty(), "{case}");
         return [0; 2];
     };
-    let field = AnyAngleFields::new(space).field(FieldQuery::new(&[query.start])).expect("it is free");
     let (mut last, mut counts) = (0.0_f64, [0; 2]);
     for event in log.0 {
         let (node, is_expanded) = match event {
@@ -242,15 +250,13 @@ fn check_roots(space: &FreeSpace<Corners>, query: Ends, case: &str) -> [usize; 2
         let is_in_order = !is_expanded || f >= last - 1e-6 && f <= path.cost() + 1e-6;
         assert!(g <= f + 1e-6 && is_in_order, "{node:?}; {case}");
         last = if is_expanded { f } else { last };
-        let distance = |at: Vertex| field.get(at).expect("it is reached");
         counts[1] += usize::from((g - distance(node.at)).abs() < 1e-6);
         let Some(parent) = node.parent else {
             assert_eq!((node.at, g), (query.start, 0.0), "{case}");
             continue;
         };
         assert!(space.sees(parent, node.at), "{parent} to {}; {case}", node.at);
-        let (dx, dy) = (f64::from(parent.x - node.at.x), f64::from(parent.y - node.at.y));
-        assert!(g >= distance(parent) + dx.hypot(dy) - 1e-6, "{node:?}; {case}");
+        assert!(g >= distance(parent) + length(parent.to(node.at)) - 1e-6, "{node:?}; {case}");
         counts[0] += 1;
     }
     counts
@@ -268,8 +274,21 @@ fn events_of_anya_tell_its_roots() {
                 let mut free = || random_free_vertex(rng, &grid, Corners::KIND);
                 let (Some(start), Some(goal)) = (free(), free()) else { continue };
                 let case = describe(&grid, space.rules(), start, goal, seed);
-                let [more, exact] = check_roots(&space, Ends::new(start, goal), &case);
-                counts = [counts[0] + more, counts[1] + exact];
+                let (query, k) = (Ends::new(start, goal), FiniteK::new(2 + rng.below(5)).expect("from 2"));
+                let visibility = Visibility::new(&grid, gap);
+                let graph = visibility.over(None);
+                let costs = graph.costs_from(start);
+                let at = |at: Vertex| costs.to(at).expect("it is reached");
+                let any_angle =
+                    check_roots((Anya::new(&space), &space), query, &case, at, distance_any_angle);
+                let graph = Explicit::new(&grid, space.rules(), Some(k));
+                let costs = graph.costs_from(start);
+                let at = |at: Vertex| costs.to(at).expect("it is reached");
+                let (anya, case) = (Anya::over(&space, k).expect("a small k"), format!("k = {k}; {case}"));
+                let over_k = check_roots((anya, &space), query, &case, at, |by| distance(by, k));
+                for [more, exact] in [any_angle, over_k] {
+                    counts = [counts[0] + more, counts[1] + exact];
+                }
             }
         }
     }
