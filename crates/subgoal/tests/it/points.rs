@@ -29,6 +29,11 @@ fn solve(
             let points: Vec<_> = path.points().map(Point::parts).collect();
             let fault = validate_between_points(space.grid(), space.rule(), from, to, &points, path.cost());
             assert_eq!(fault, Ok(()), "{path}; {case}");
+            let turns = |at: &[(i64, i64)]| {
+                let [v, w] = [1, 2].map(|i| [at[i].0 - at[i - 1].0, at[i].1 - at[i - 1].1].map(i128::from));
+                v[0] * w[1] != v[1] * w[0]
+            };
+            assert!(points.windows(3).all(turns), "{path} goes straight on at a bend; {case}");
         }
         _ => panic!("{answer:?}, not {expected:?}; {case}"),
     }
