@@ -22,8 +22,8 @@ pub fn point_cells(from: Point, to: Point) -> Vec<(i32, i32)> {
     if [ax, ay, bx, by].iter().any(|at| at.unsigned_abs() >= FAR) {
         return Vec::new();
     }
-    // Rows are crossed one after another; of a steep segment those are columns.
-    if (by - ay).abs() > (bx - ax).abs() {
+    // Rows are crossed one after another; of a segment that stays in a column those are columns.
+    if ax == bx {
         let turned = cells((ay, ax), (by, bx));
         turned.into_iter().map(|(row, column)| (column, row)).collect()
     } else {
@@ -31,11 +31,11 @@ pub fn point_cells(from: Point, to: Point) -> Vec<(i32, i32)> {
     }
 }
 
-/// The same for a segment that is at least as long across as down, in parts of a cell.
+/// The same for a segment that does not go straight down or up, in parts of a cell.
 fn cells((ax, ay): (i64, i64), (bx, by): (i64, i64)) -> Vec<(i32, i32)> {
     const ONE: i64 = Point::PARTS;
     let (floor, ceil) = (|x: i64, one: i64| x.div_euclid(one), |x: i64, one: i64| -(-x).div_euclid(one));
-    let (down, length) = ((by - ay).signum(), (by - ay).abs());
+    let (is_down, down, length) = (by > ay, (by - ay).signum(), (by - ay).abs());
     // Columns of the cells between two places, in the order of the segment.
     let between = |low: i64, high: i64| {
         let columns = low as i32..high as i32;
@@ -51,12 +51,12 @@ fn cells((ax, ay): (i64, i64), (bx, by): (i64, i64)) -> Vec<(i32, i32)> {
         return between(low, high).flat_map(|column| rows.clone().map(move |row| (column, row))).collect();
     }
     let (first, last) =
-        if down > 0 { (floor(ay, ONE), ceil(by, ONE) - 1) } else { (ceil(ay, ONE) - 1, floor(by, ONE)) };
+        if is_down { (floor(ay, ONE), ceil(by, ONE) - 1) } else { (ceil(ay, ONE) - 1, floor(by, ONE)) };
     // In parts times the length, which 64 bits hold.
     let along = |y: i64| ax * length + (y - ay) * down * (bx - ax);
     let (mut found, mut row, mut here) = (Vec::new(), first, ax * length);
     loop {
-        let border = if down > 0 { row + 1 } else { row } * ONE;
+        let border = if is_down { row + 1 } else { row } * ONE;
         let next = if row == last { bx * length } else { along(border) };
         let (low, high) = (here.min(next), here.max(next));
         let columns = between(floor(low, ONE * length), ceil(high, ONE * length));

@@ -77,7 +77,7 @@ fn labels_of_vertices_can_be_made_anew_and_stopped() {
     let space = space::<Corners>(&grid, DiagonalGap::Open);
     let without = labels(&space, K::Any);
     let all = with_vertices(&without, &space, false);
-    assert!(all.labels_of_vertices() > 3 * without.labels());
+    assert!(all.labels_of_vertices() > 3 * without.labels() && without.labels() > 3 * without.subgoals());
     // They replace those that there are.
     assert_eq!(within(&all, &space, usize::MAX).to_bytes(), all.to_bytes());
     assert_eq!(within(&all, &space, 0).to_bytes(), without.to_bytes());
