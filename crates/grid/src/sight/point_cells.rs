@@ -53,7 +53,7 @@ fn cells((ax, ay): (i64, i64), (bx, by): (i64, i64)) -> Vec<(i32, i32)> {
     let (first, last) =
         if is_down { (floor(ay, ONE), ceil(by, ONE) - 1) } else { (ceil(ay, ONE) - 1, floor(by, ONE)) };
     // In parts times the length, which 64 bits hold.
-    let along = |y: i64| ax * length + (y - ay) * down * (bx - ax);
+    let along = |y: i64| ax * length + (y - ay).abs() * (bx - ax);
     let (mut found, mut row, mut here) = (Vec::new(), first, ax * length);
     loop {
         let border = if is_down { row + 1 } else { row } * ONE;
