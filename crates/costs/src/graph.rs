@@ -367,3 +367,28 @@ pub(crate) fn primitive(d: Vector) -> (Vector, u32) {
     let times = d.gcd().max(1);
     (Vector::new(d.x / times as i32, d.y / times as i32), times)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of the length of a segment in steps, whose costs differ along the two axes, at most a unit a step is
+    /// missing, and nothing is too much.
+    #[test]
+    fn segments_at_any_angle_cost_no_less_than_their_bound() {
+        for [across, down] in [[1_u64 << 32, 1 << 32], [3 << 31, 7 << 33], [1 << 20, 1 << 40], [0, 1 << 32]] {
+            for (x, y) in [(0, 0), (5, 0), (0, -9), (-3, 4), (1, 1), (-1_000, 999), (12_000, 70)] {
+                let bound =
+                    at_any_angle([across, down].map(Cost::from_bits), Vector::new(x, y)).to_bits() as f64;
+                let length = |less: f64| {
+                    let [across, down] = [across, down].map(|step| (step as f64 - less).max(0.0));
+                    (f64::from(x) * across).hypot(f64::from(y) * down)
+                };
+                assert!(
+                    bound <= length(0.0) && bound >= length(1.0) * (1.0 - 1e-15) - 1.0,
+                    "({x}, {y}): {bound}"
+                );
+            }
+        }
+    }
+}

@@ -193,6 +193,7 @@ fn occupancies_become_bytes_in_order() {
     assert_eq!((bytes[0], bytes[50], bytes[98], bytes[99], bytes[100]), (0, 127, 248, 253, 254));
     assert!(bytes[100..256].iter().all(|&byte| byte == 254) && bytes[256] == 255);
     assert_eq!(costmap.flipped(), costmap);
+    assert_eq!([(256, 0), (257, 0), (0, 1)].map(|(x, y)| costmap.get(x, y)), [Some(255), None, None]);
     for seed in seeds(20) {
         let (costmap, _) = random(seed);
         let flipped = costmap.flipped();

@@ -5,6 +5,7 @@ use std::sync::{Arc, atomic::AtomicBool};
 use mediant_costs::{CostField, CostFieldError, CostFieldQuery, CostGraph, CostSurface, CostsError};
 use mediant_grid::{CornerRule, Interrupt, Rules, Vertex};
 use mediant_moves::FiniteK;
+use mediant_search::{End, QueryError};
 
 #[test]
 fn bad_costs_are_named_with_their_cell() {
@@ -60,8 +61,11 @@ fn ranges_k_cells_and_sources_are_checked() {
     let field = |at: Vertex, limit| {
         CostField::new(Arc::clone(&graph), CostFieldQuery::new(&[at]).within(limit), &Interrupt::NEVER)
     };
-    assert!(matches!(field(Vertex::new(0, 0), 1.0), Err(CostFieldError::Query(_))));
-    assert!(matches!(field(Vertex::new(7, 0), 1.0), Err(CostFieldError::Query(_))));
+    let [blocked, outside] = [Vertex::new(0, 0), Vertex::new(7, 0)].map(|at| field(at, 1.0).err());
+    let (end, last) = (End::Start, Vertex::new(2, 1));
+    let query = |error| Some(CostFieldError::Query(error));
+    assert_eq!(blocked, query(QueryError::Blocked { end, at: Vertex::new(0, 0).into() }));
+    assert_eq!(outside, query(QueryError::Outside { end, at: Vertex::new(7, 0).into(), last }));
     assert!(matches!(field(Vertex::new(1, 0), -1.0), Err(CostFieldError::Limit { .. })));
     assert!(matches!(field(Vertex::new(1, 0), f64::NAN), Err(CostFieldError::Limit { .. })));
     let stopped = Interrupt::new().cancel(Arc::new(AtomicBool::new(true)));
