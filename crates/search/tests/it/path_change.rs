@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mediant_grid::{Centers, CornerRule, Corners, DiagonalGap, FreeSpace, Placement};
+use mediant_grid::{Centers, Change, CornerRule, Corners, DiagonalGap, FreeSpace, Grid, Placement};
 use mediant_moves::FiniteK;
 use mediant_oracle::{Explicit, Rng, random_change, random_free_vertex, random_grid, seeds};
 use mediant_search::Path;
@@ -52,4 +52,17 @@ fn changes_do_to_paths_what_a_new_search_finds() {
         }
     }
     assert!(told.iter().all(|&count| count > 40), "{told:?}");
+}
+
+/// From (0, 0) to (10, 0) beside a freed cell, whose square begins 4.5 cells along and 2.5 below.
+#[test]
+fn what_is_freed_is_as_far_as_its_square() {
+    let map = Arc::new(Grid::from_fn(11, 5, |_, y| y == 3).expect("a map"));
+    let path = Path::new(vec![(0, 0).into(), (10, 0).into()]);
+    let least = |cells: &[(u32, u32, bool)]| {
+        path.least_by_freed::<Centers>(&Change::new(Arc::clone(&map)).edit_cells(cells.iter().copied()))
+    };
+    assert!((least(&[(5, 3, false)]) - 2.0 * 4.5_f64.hypot(2.5)).abs() < 1e-12);
+    assert!((least(&[(2, 3, false)]) - 1.5_f64.hypot(2.5) - 7.5_f64.hypot(2.5)).abs() < 1e-12);
+    assert_eq!(least(&[(5, 2, true)]), f64::INFINITY);
 }

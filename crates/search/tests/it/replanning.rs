@@ -3,7 +3,7 @@
 
 use std::{
     cmp::Reverse,
-    collections::{BinaryHeap, HashMap},
+    collections::{BinaryHeap, HashMap, HashSet},
     sync::Arc,
 };
 
@@ -264,25 +264,57 @@ fn costs_of_cells_change_with_the_map() {
     }
 }
 
+fn graph(map: &Arc<Grid>, k: FiniteK) -> GridGraph<Corners> {
+    GridGraph::new(Arc::clone(map), k, DiagonalGap::Closed).unwrap()
+}
+
+/// Cell by cell, a map changes and back again: what is known of its moves is that of this k. Whether the cost
+/// of a path ever changes.
+fn check_each_cell(
+    lpa: &mut LpaStar<Arc<GridGraph<Corners>>>,
+    map: &Arc<Grid>,
+    ends: Ends,
+    k: FiniteK,
+) -> bool {
+    let mut costs = HashSet::new();
+    let cells = (0..map.height()).flat_map(|y| (0..map.width()).map(move |x| (x, y)));
+    for (x, y) in cells.take(300) {
+        let change = Change::new(Arc::clone(map)).edit_cells([(x, y, map.is_free(x as i32, y as i32))]);
+        let after = Arc::new(graph(change.after(), k));
+        lpa.change(Arc::clone(&after), &change);
+        let (answer, best) = (lpa.path(), AStar::new(Arc::clone(&after), Hk).solve(ends));
+        check(&after, ends, (answer, lpa.cost()), &best, &|| format!("{k}, ({x}, {y}) of {}", map.id()));
+        costs.insert(lpa.cost());
+        let back =
+            Change::new(Arc::clone(change.after())).edit_cells([(x, y, map.is_blocked(x as i32, y as i32))]);
+        lpa.change(Arc::new(graph(back.after(), k)), &back);
+    }
+    costs.len() > 1
+}
+
 /// A graph that does not follow from the one before: another map, another size, another k.
 #[test]
 fn what_does_not_follow_is_searched_anew() {
     let maps: Vec<_> = (0..12).map(|seed| Arc::new(suite_grid(seed).0)).collect();
-    let graph =
-        |map: &Arc<Grid>, k| GridGraph::<Corners>::new(Arc::clone(map), k, DiagonalGap::Closed).unwrap();
     let ends = Ends::new((1, 2), (6, 5));
     let first = graph(&maps[0], FiniteK::N8);
     let mut lpa = LpaStar::new(Arc::new(first), ends);
-    let mut found = 0;
+    let (mut found, mut changed) = (0, 0);
     for (map, k) in maps.iter().zip([FiniteK::N8, FiniteK::N16].into_iter().cycle()) {
-        let graph = Arc::new(graph(map, k));
+        let other = Arc::new(graph(map, k));
         // The change of another map.
-        lpa.change(Arc::clone(&graph), &Change::new(Arc::clone(&maps[5])));
-        let best = AStar::new(Arc::clone(&graph), Hk).solve(ends);
+        lpa.change(Arc::clone(&other), &Change::new(Arc::clone(&maps[5])));
+        let best = AStar::new(Arc::clone(&other), Hk).solve(ends);
         let answer = lpa.path();
         found += usize::from(answer.as_ref().is_ok_and(|answer| answer.path().is_some()));
-        check(&graph, ends, (answer, lpa.cost()), &best, &|| format!("{k} on\n{}", map.id()));
-        assert_eq!(lpa.identity(), graph.identity());
+        check(&other, ends, (answer, lpa.cost()), &best, &|| format!("{k} on\n{}", map.id()));
+        assert_eq!(lpa.identity(), other.identity());
+        // One more, whose moves become longer.
+        let mut lpa = LpaStar::new(Arc::new(graph(map, FiniteK::N8)), ends);
+        for k in [FiniteK::N8, FiniteK::N16, FiniteK::N8] {
+            lpa.change(Arc::new(graph(map, k)), &Change::new(Arc::clone(&maps[5])));
+            changed += usize::from(lpa.path().is_ok() && check_each_cell(&mut lpa, map, ends, k));
+        }
     }
-    assert!(found > 2, "{found}");
+    assert!(found > 2 && changed > 2, "{found}, {changed}");
 }
