@@ -53,7 +53,7 @@ use crate::Error;
 pub struct Options {
     /// Groups of files; all without any
     groups: Vec<String>,
-    /// Begin no further mutant after so many minutes
+    /// Begin no further mutant after so many minutes; 0: tell what is known
     #[arg(long, value_name = "N")]
     minutes: Option<f64>,
     /// The seconds of tests that a mutant may take
@@ -94,12 +94,15 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let until = options.minutes.map(|minutes| Instant::now() + Duration::from_secs_f64(60.0 * minutes));
     let mutants = mutants()?;
     let sources = digests(&mutants)?;
-    let project = MutatedProject::new(&mutants)?;
-    let built = project.build(&mutants)?;
     let folder = root().join("target/mutants");
-    let tests = tests(&built, &folder, options.threads)?;
     let file = folder.join("outcomes.jsonl");
     let mut known = outcomes(&file, &sources);
+    if options.minutes == Some(0.0) {
+        return record::tell(&mutants, &known, options.record);
+    }
+    let project = MutatedProject::new(&mutants)?;
+    let built = project.build(&mutants)?;
+    let tests = tests(&built, &folder, options.threads)?;
     let is_asked = |mutant: &&Mutant| {
         options.groups.is_empty() || options.groups.iter().any(|name| name == mutant.group)
     };
