@@ -263,8 +263,8 @@ mod tests {
     use crate::Rectangle;
 
     /// Of squares with sides of 1 to 60 cells that are blocked, and of those that are freed, so many are
-    /// repaired: more would take longer than a new transform, and fewer would be given up in vain. No clearance
-    /// shows it.
+    /// repaired: more would take longer than a new transform, and fewer would be given up in vain. No
+    /// clearance shows it.
     #[test]
     fn so_many_changes_are_repaired() {
         let is_wall = |x: u32, y: u32| (x * 7 + y * 13).is_multiple_of(41) || x % 24 == 5 && y % 17 > 3;

@@ -223,9 +223,9 @@ fn events_tell_the_whole_search() {
     assert!(swaps_by_decreases > 100, "only {swaps_by_decreases} swaps by decreases");
 }
 
-/// Checks the events of a search by Anya: of each node its root, the root before that, and their costs, by the
-/// distances from the start and the lengths of lines. Returns how many nodes had a root before theirs, and of
-/// how many roots the cost is the distance.
+/// Checks the events of a search by Anya: of each node its root, the root before that, and their costs, by
+/// the distances from the start and the lengths of lines. Returns how many nodes had a root before theirs,
+/// and of how many roots the cost is the distance.
 fn check_roots<N: Norm>(
     (mut anya, space): (Anya<&FreeSpace<Corners>, N>, &FreeSpace<Corners>),
     query: Ends,

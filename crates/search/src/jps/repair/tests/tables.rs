@@ -390,8 +390,8 @@ fn changes_of_other_maps_are_refused() {
     assert_eq!(table.repaired(&after, &new, &change, never).unwrap().identity(), after.identity());
 }
 
-/// Of the first so many of a list of cells that change, the lists of so many are repaired: for the rest they are
-/// made anew. No path shows it.
+/// Of the first so many of a list of cells that change, the lists of so many are repaired: for the rest they
+/// are made anew. No path shows it.
 #[test]
 fn so_many_changes_are_repaired() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32) -> usize {
