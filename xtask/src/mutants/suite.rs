@@ -199,11 +199,26 @@ pub(super) fn file(folder: &Path, digest: &str) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use super::of_processor;
+    use super::{last_and_place, of_processor};
 
     #[test]
     fn the_times_of_a_shell() {
         assert_eq!(of_processor("0m0.01s 0m0.00s\n1m1.25s 0m0.50s\n"), 61.75);
         assert_eq!(of_processor(""), 0.0);
+    }
+
+    #[test]
+    fn the_place_where_a_test_fails() {
+        let told = [
+            "running 2 tests",
+            "test a::passes ... ok",
+            "test a::fails ... FAILED",
+            "---- a::fails stdout ----",
+            "thread 'a::fails' (7) panicked at crates/a/src/a.rs:12:5:",
+            "thread 'a::fails' (7) panicked at crates/a/src/b.rs:1:1:",
+        ];
+        let expected = ("a::fails".to_owned(), "crates/a/src/a.rs:12:5".to_owned());
+        assert_eq!(last_and_place(told.into_iter().map(str::to_owned)), expected);
+        assert_eq!(last_and_place(std::iter::empty()), Default::default());
     }
 }

@@ -176,10 +176,11 @@ fn other_changes_than_these_are_refused() {
     assert!(matches!(stopped, Err(CostFieldError::Interrupted(_))));
 }
 
-/// Of the first so many of a list of cells, which are blocked or cost more or less, so many are repaired: the
-/// rest are made anew. No field shows it.
+/// A list of cells changes, first one of them, then two, and so on: all are blocked, or cost the least or the
+/// most. Counts the changes that the field follows. After all others it is made anew, and is equal: only these
+/// counts show when a repair is given up.
 #[test]
-fn so_many_changes_are_repaired() {
+fn the_number_of_repairs_is_pinned() {
     let map = land(90);
     let mut rng = Rng::new(5);
     let cells: Vec<(u32, u32)> = (0..40).map(|_| (rng.below(90), rng.below(90))).collect();

@@ -203,10 +203,11 @@ fn numbers_of_landmarks_are_checked_and_maps_without_free_cells_have_none() {
     assert_consistent(&graph, &index, "no cell is free");
 }
 
-/// Of the first so many of a list of cells that become cheaper, so many are repaired: for the rest landmarks
-/// are made anew. No path shows it.
+/// A list of cells becomes cheaper, first one of them, then two, and so on. Counts the changes that landmarks
+/// follow. After all others they are made anew, and paths cost the same: only these counts show when a repair
+/// is given up.
 #[test]
-fn so_many_changes_are_repaired() {
+fn the_number_of_repairs_is_pinned() {
     let map = land(80, 60);
     let mut rng = Rng::new(5);
     let cells: Vec<(u32, u32)> = (0..30).map(|_| (rng.below(80), rng.below(60))).collect();

@@ -262,11 +262,11 @@ mod tests {
     use super::{super::Fit, *};
     use crate::Rectangle;
 
-    /// Of squares with sides of 1 to 60 cells that are blocked, and of those that are freed, so many are
-    /// repaired: more would take longer than a new transform, and fewer would be given up in vain. No
-    /// clearance shows it.
+    /// Squares with sides of 1 to 60 cells are blocked, or freed. Counts the changes that the clearance
+    /// follows. After all others it is measured anew, and is equal: only these counts show when a repair is
+    /// given up.
     #[test]
-    fn so_many_changes_are_repaired() {
+    fn the_number_of_repairs_is_pinned() {
         let is_wall = |x: u32, y: u32| (x * 7 + y * 13).is_multiple_of(41) || x % 24 == 5 && y % 17 > 3;
         let map = Arc::new(Grid::from_fn(200, 150, is_wall).expect("a map"));
         let repaired = |fit, outside, is_blocked| {

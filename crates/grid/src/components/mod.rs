@@ -393,10 +393,11 @@ mod tests {
         assert_eq!(components.memory_bytes(), tiles + 4 * regions);
     }
 
-    /// Of the changes of small rectangles in a tile, so many are known to join and part nothing, and after so
-    /// many is known how regions are joined: all other work would be in vain, and no component shows it.
+    /// Small rectangles of a tile change. Counts the changes that are known to join and part nothing, and those
+    /// after which it is still known how regions are joined. After all others it is found anew, and components
+    /// are the same: only these counts show it.
     #[test]
-    fn so_much_is_known_after_small_changes() {
+    fn the_number_of_patched_tiles_is_pinned() {
         let hash = |x: u32, y: u32| (x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(40_503)) >> 7;
         let map = Arc::new(Grid::from_fn(130, 70, |x, y| hash(x, y) % 100 < 35).expect("a map"));
         let counts = [Connectivity::Four, Connectivity::Eight].map(|connectivity| {

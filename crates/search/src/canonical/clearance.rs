@@ -278,10 +278,11 @@ mod tests {
         });
     }
 
-    /// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
-    /// repaired: for the rest all is made anew. No path shows it.
+    /// A list of cells is blocked or freed, first one of them, then two, and so on. Counts the changes that
+    /// the distances follow. After all others they are made anew, and are equal: only these counts show when
+    /// a repair is given up.
     #[test]
-    fn so_many_changes_are_repaired() {
+    fn the_number_of_repairs_is_pinned() {
         fn repaired<P: Placement>() -> [usize; 2] {
             let (rng, never) = (&mut Rng::new(3), &Interrupt::NEVER);
             let map = Arc::new(rooms(rng, 170, 140));

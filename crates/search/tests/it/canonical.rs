@@ -371,7 +371,7 @@ fn as_cheap_a_way_to_a_gap_replaces_no_other() {
     check(BlockJps::new(&grid_graph, Hk).unwrap().solve(query));
 }
 
-/// How often a search began.
+/// The number of times that a search began.
 #[derive(Default)]
 struct Begun(u32);
 

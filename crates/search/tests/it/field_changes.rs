@@ -282,10 +282,10 @@ fn fields_are_refused_what_is_not_theirs() {
     );
 }
 
-/// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
-/// repaired: for the rest the field is made anew. No field shows it.
+/// A list of cells is blocked or freed, first one of them, then two, and so on. Counts the changes that a field
+/// follows. After all others it is made anew, and is equal: only these counts show when a repair is given up.
 #[test]
-fn so_many_changes_are_repaired() {
+fn the_number_of_repairs_is_pinned() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32, limit: f64) -> [usize; 2] {
         let (k, mut rng) = (FiniteK::new(k).unwrap(), Rng::new(7));
         let grid = Arc::new(rooms(&mut rng, 170, 130));

@@ -70,10 +70,11 @@ fn a_graph_that_follows_edits_equals_a_new_one() {
     assert!(followed > all / 3, "{followed} of {all} edits were followed");
 }
 
-/// Of the first so many of a list of cells that are blocked, and of those that are freed, so many are
-/// repaired: for the rest the graph is made anew. No path shows it.
+/// A list of cells is blocked or freed, first one of them, then two, and so on. Counts the changes that the
+/// graph follows. After all others it is made anew, and is equal: only these counts show when a repair is
+/// given up.
 #[test]
-fn so_many_changes_are_repaired() {
+fn the_number_of_repairs_is_pinned() {
     let mut rng = Rng::new(9);
     let grid = Arc::new(rooms(&mut rng, 90, 70));
     let cells: Vec<(u32, u32)> = (0..60).map(|_| (rng.below(90), rng.below(70))).collect();

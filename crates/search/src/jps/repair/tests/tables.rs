@@ -390,10 +390,10 @@ fn changes_of_other_maps_are_refused() {
     assert_eq!(table.repaired(&after, &new, &change, never).unwrap().identity(), after.identity());
 }
 
-/// Of the first so many of a list of cells that change, the lists of so many are repaired: for the rest they
-/// are made anew. No path shows it.
+/// A list of cells changes, first one of them, then two, and so on. Counts the changes that jump lists follow.
+/// After all others they are made anew, and are equal: only these counts show when a repair is given up.
 #[test]
-fn so_many_changes_are_repaired() {
+fn the_number_of_repairs_is_pinned() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32) -> usize {
         let (rng, never) = (&mut Rng::new(11), &Interrupt::NEVER);
         let map = Arc::new(noise(rng, 250, 200, 1));
