@@ -176,9 +176,9 @@ fn other_changes_than_these_are_refused() {
     assert!(matches!(stopped, Err(CostFieldError::Interrupted(_))));
 }
 
-/// A list of cells changes, first one of them, then two, and so on: all are blocked, or cost the least or the
-/// most. Counts the changes that the field follows. After all others it is made anew, and is equal: only these
-/// counts show when a repair is given up.
+/// A list of cells changes, first one of them, then two, and so on: all are blocked, or cost the least or
+/// the most. Counts the changes that the field follows. After all others it is made anew, and is equal: only
+/// these counts show when a repair is given up.
 #[test]
 fn the_number_of_repairs_is_pinned() {
     let map = land(90);

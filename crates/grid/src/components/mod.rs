@@ -393,9 +393,9 @@ mod tests {
         assert_eq!(components.memory_bytes(), tiles + 4 * regions);
     }
 
-    /// Small rectangles of a tile change. Counts the changes that are known to join and part nothing, and those
-    /// after which it is still known how regions are joined. After all others it is found anew, and components
-    /// are the same: only these counts show it.
+    /// Small rectangles of a tile change. Counts the changes that are known to join and part nothing, and
+    /// those after which it is still known how regions are joined. After all others it is found anew, and
+    /// components are the same: only these counts show it.
     #[test]
     fn the_number_of_patched_tiles_is_pinned() {
         let hash = |x: u32, y: u32| (x.wrapping_mul(2_654_435_761) ^ y.wrapping_mul(40_503)) >> 7;

@@ -282,8 +282,9 @@ fn fields_are_refused_what_is_not_theirs() {
     );
 }
 
-/// A list of cells is blocked or freed, first one of them, then two, and so on. Counts the changes that a field
-/// follows. After all others it is made anew, and is equal: only these counts show when a repair is given up.
+/// A list of cells is blocked or freed, first one of them, then two, and so on. Counts the changes that a
+/// field follows. After all others it is made anew, and is equal: only these counts show when a repair is
+/// given up.
 #[test]
 fn the_number_of_repairs_is_pinned() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32, limit: f64) -> [usize; 2] {

@@ -284,9 +284,9 @@ fn repaired_finders_lose_no_path() {
     assert!(stuck_to_reach > 2, "{stuck_to_reach}");
 }
 
-/// A list of cells changes, first one of them, then two, and so on. Counts the changes that planes follow, and
-/// the dead ends that are known after every eighth of these, and after every 64th change if planes are made
-/// anew. No path shows when a repair is given up, nor which dead ends are not known.
+/// A list of cells changes, first one of them, then two, and so on. Counts the changes that planes follow,
+/// and the dead ends that are known after every eighth of these, and after every 64th change if planes are
+/// made anew. No path shows when a repair is given up, nor which dead ends are not known.
 #[test]
 fn the_number_of_repairs_is_pinned() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32) -> [usize; 3] {

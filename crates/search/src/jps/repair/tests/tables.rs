@@ -390,8 +390,9 @@ fn changes_of_other_maps_are_refused() {
     assert_eq!(table.repaired(&after, &new, &change, never).unwrap().identity(), after.identity());
 }
 
-/// A list of cells changes, first one of them, then two, and so on. Counts the changes that jump lists follow.
-/// After all others they are made anew, and are equal: only these counts show when a repair is given up.
+/// A list of cells changes, first one of them, then two, and so on. Counts the changes that jump lists
+/// follow. After all others they are made anew, and are equal: only these counts show when a repair is given
+/// up.
 #[test]
 fn the_number_of_repairs_is_pinned() {
     fn repaired<P: Placement>(rule: P::Rule, k: u32) -> usize {
