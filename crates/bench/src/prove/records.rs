@@ -129,7 +129,22 @@ pub(super) fn recorded(
     Ok(states)
 }
 
-/// Writes the states to the records in `folder`. Rows of other sources stay until these have proven a map.
+/// How many maps of each suite and set are proven by any sources.
+pub(super) fn reach(folder: &Path) -> Result<BTreeMap<(String, String), usize>, ProveError> {
+    let mut reach = BTreeMap::new();
+    for is_of_laws in [false, true] {
+        let (record, key) = (Page::read(folder, is_of_laws)?.record, Page::key(is_of_laws));
+        for row in &record.rows {
+            let maps = row.number("maps").unwrap_or(0.0) as usize;
+            let most = reach.entry((row.text(key).to_owned(), row.text("set").to_owned())).or_default();
+            *most = maps.max(*most);
+        }
+    }
+    Ok(reach)
+}
+
+/// Writes the states to the records in `folder`. Rows of other sources stay until these have proven as many
+/// maps.
 pub(super) fn write(
     (root, folder): (&Path, &Path),
     sources: &Sources,
@@ -153,8 +168,12 @@ pub(super) fn write(
             rows.push(row);
             problems += state.done.tally.get("problems") + state.done.tally.get(CASES);
         }
-        let is_old =
-            |row: &&Row| !rows.iter().any(|new| new.is(&[(key, row.text(key)), ("set", row.text("set"))]));
+        let maps = |row: &Row| row.number("maps").unwrap_or(0.0);
+        let is_old = |row: &&Row| {
+            let keys = [(key, row.text(key)), ("set", row.text("set"))];
+            let is_of_these = row.text("sources") == sources.of(is_of_laws);
+            !rows.iter().any(|new| new.is(&keys) && (is_of_these || maps(new) >= maps(row)))
+        };
         let old: Vec<Row> = page.record.rows.iter().filter(is_old).cloned().collect();
         problems +=
             old.iter().filter_map(|row| row.number("problems").or(row.number(CASES))).sum::<f64>() as u64;
@@ -172,11 +191,11 @@ pub(super) fn write(
     Ok(())
 }
 
-/// The place of a row: in the order of the suites, then by set.
-fn place(row: &Row, key: &str) -> (usize, String) {
+/// The place of a row: in the order of the suites, then by set and sources.
+fn place(row: &Row, key: &str) -> (usize, String, String) {
     let name = row.text(key);
     let at = Suite::all().iter().position(|suite| suite.to_string() == name);
-    (at.unwrap_or(usize::MAX), row.text("set").to_owned())
+    (at.unwrap_or(usize::MAX), row.text("set").to_owned(), row.text("sources").to_owned())
 }
 
 fn provenance(root: &Path, pace: Pace, instances: u64, record: &Record, is_of_laws: bool) -> Provenance {

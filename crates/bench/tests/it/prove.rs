@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 
 use clap::Parser;
 use mediant_bench::prove::{Options, Places, run_in};
-use mediant_report::Record;
+use mediant_report::{Record, Row};
 use mediant_sets::root;
 
 #[derive(Parser)]
@@ -90,6 +90,28 @@ fn what_is_done_is_not_done_again() {
     fs::remove_dir_all(&places.records).unwrap();
     let (error, _) = prove(&places, &arguments);
     assert!(error.is_some_and(|error| error.contains("no map") || error.contains("a.map")));
+}
+
+/// Records of other sources, of more maps and of as many: the first stay beside today's.
+#[test]
+fn what_other_sources_proved_stays_until_as_much_is_proven() {
+    let folder = tempfile::tempdir().unwrap();
+    let places = places(folder.path(), "5");
+    let arguments = ["--family", "corners-any", "corners-2", "--record"];
+    assert_eq!(prove(&places, &arguments).0, None);
+    let (mut old, file) = (record(&places, "instances.json"), places.records.join("instances.json"));
+    let today = old.rows[0].text("sources").to_owned();
+    let of = |family: &str, maps: usize, sources: &str| {
+        let row = Row::new().key("family", family).key("set", "dao").key("sources", sources);
+        row.with("maps", maps as f64).with("of", 2.0).with("problems", 8.0)
+    };
+    old.rows = vec![of("corners-any", 3, "older"), of("corners-2", 2, "older")];
+    fs::write(&file, old.json()).unwrap();
+    assert_eq!(prove(&places, &arguments).0, None);
+    let rows = record(&places, "instances.json").rows;
+    let rows: Vec<_> = rows.iter().map(|row| (row.text("family"), row.text("sources"))).collect();
+    let today = today.as_str();
+    assert_eq!(rows, [("corners-2", today), ("corners-any", today), ("corners-any", "older")]);
 }
 
 #[test]
