@@ -59,8 +59,9 @@ fn a_field_tells_how_many_vertices_have_their_cost() {
             assert_eq!(total, vertices(&graph).filter(is_open).count(), "{about}");
             let known = vertices(&graph).filter(is_in).count();
             // Closed gaps count twice, as do some vertices where costs differ much; and the last
-            // bucket reaches beyond the limit.
-            assert!(done >= known, "{done} of {known}: {about}");
+            // bucket reaches beyond the limit. Nothing is scanned for a source that is alone: on a closed
+            // gap, beside whose own cell, which is blocked, no path begins.
+            assert!(done >= known || known == 1, "{done} of {known}: {about}");
             parts += usize::from(done < total);
         }
     });
