@@ -11,7 +11,7 @@
 //! * [`Claim`], [`Verdict`]: a published number beside ours, and whether they agree.
 //! * [`Table`]: tables as Markdown and as plain text.
 //! * [`stats`]: means, medians, ratios of means with their standard errors.
-//! * [`Chart`], [`GridDrawing`], [`TreeDrawing`]: figures as SVG.
+//! * [`Chart`], [`GridDrawing`], [`NeighborhoodDrawing`], [`TreeDrawing`]: figures as SVG.
 //!
 //! Not here: engines, measurements (`mediant-bench`), and the choice of tables and figures, which is part of
 //! each experiment.
@@ -25,7 +25,7 @@ pub mod stats;
 mod table;
 
 pub use claim::{Claim, Verdict, verdicts};
-pub use figure::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
+pub use figure::{Axis, Chart, GridDrawing, Mark, NeighborhoodDrawing, Scale, Series, TreeDrawing};
 pub use here::revision;
 pub use number::{number, thousands};
 pub use record::{Column, ColumnKind, Difference, Machine, Provenance, Record, RecordError, Row, Value};

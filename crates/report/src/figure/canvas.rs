@@ -36,6 +36,8 @@ impl Anchor {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Canvas {
     body: String,
+    /// Rules of this figure alone, beside those of [`SHEET`].
+    rules: String,
 }
 
 impl Canvas {
@@ -97,6 +99,20 @@ impl Canvas {
         );
     }
 
+    /// What follows belongs together, up to [`end_group`](Self::end_group).
+    pub(super) fn begin_group(&mut self, class: &str) {
+        let _ = writeln!(self.body, "<g{}>", attribute(class));
+    }
+
+    pub(super) fn end_group(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// Adds a rule to the style sheet of this figure.
+    pub(super) fn rule(&mut self, rule: &str) {
+        let _ = write!(self.rules, "\n{rule}");
+    }
+
     /// Writes the title and the note at the top, and returns the y below them.
     pub(super) fn header(&mut self, title: &str, note: Option<&str>, width: f64) -> f64 {
         let room = width - 2.0 * MARGIN;
@@ -124,12 +140,12 @@ impl Canvas {
 <title>{title}</title>
 <desc>{description}</desc>
 <style>
-{SHEET}
+{SHEET}{}
 </style>
 <rect class="page" x="0" y="0" width="{width}" height="{height}"/>
 {}</svg>
 "#,
-            self.body
+            self.rules, self.body
         )
     }
 }

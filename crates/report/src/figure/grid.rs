@@ -9,6 +9,7 @@ use super::{
     geometry::{Point, Rect},
     legend::{Legend, Sample, badge},
     style::Style,
+    turn,
 };
 
 const TALLEST: f64 = 560.0;
@@ -41,13 +42,15 @@ pub struct GridDrawing {
     height: f64,
     blocked: String,
     paths: Vec<(String, Vec<Point>)>,
+    is_in_turn: bool,
 }
 
 impl GridDrawing {
     /// A map without paths.
     pub fn new(title: impl Into<String>, grid: &Grid) -> Self {
         let (width, height) = (f64::from(grid.width()), f64::from(grid.height()));
-        Self { title: title.into(), note: None, width, height, blocked: rectangles(grid), paths: Vec::new() }
+        let (title, blocked) = (title.into(), rectangles(grid));
+        Self { title, note: None, width, height, blocked, paths: Vec::new(), is_in_turn: false }
     }
 
     /// The same drawing with a line under the title.
@@ -68,6 +71,13 @@ impl GridDrawing {
         self
     }
 
+    /// The same drawing, in which the paths come forward one after another, and then all of them, over and
+    /// over. Where nothing may move, it is the drawing that it was.
+    #[must_use]
+    pub fn in_turn(self) -> Self {
+        Self { is_in_turn: true, ..self }
+    }
+
     /// The drawing as a whole SVG file.
     #[must_use]
     pub fn svg(&self) -> String {
@@ -83,7 +93,16 @@ impl GridDrawing {
         for (i, (_, points)) in self.paths.iter().enumerate() {
             let points: Vec<Point> =
                 points.iter().map(|(x, y)| (frame.x + cell * x, top + cell * y)).collect();
+            if self.is_in_turn {
+                canvas.begin_group(&turn::class(i));
+            }
             self.path_on(&mut canvas, i, &points, cell);
+            if self.is_in_turn {
+                canvas.end_group();
+            }
+        }
+        if self.is_in_turn {
+            turn::rules(&mut canvas, self.paths.len());
         }
         for (letter, (x, y)) in self.ends() {
             badge(&mut canvas, (frame.x + cell * x, top + cell * y), letter);

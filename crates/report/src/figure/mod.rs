@@ -1,4 +1,4 @@
-//! Figures as SVG text: charts, maps with paths, decomposition trees.
+//! Figures as SVG text: charts, maps with paths, neighborhoods, decomposition trees.
 //!
 //! **The key decision: we write the SVG ourselves and use no plotting library.** A figure is one file in the
 //! repository, next to the numbers that it shows, and must be fit for that. It follows the page's light or
@@ -18,6 +18,7 @@ mod geometry;
 mod grid;
 mod labels;
 mod legend;
+mod neighborhood;
 mod number;
 mod plot;
 mod series;
@@ -27,9 +28,11 @@ mod style;
 mod text;
 mod ticks;
 mod tree;
+mod turn;
 
 pub use axis::{Axis, Scale};
 pub use chart::Chart;
 pub use grid::GridDrawing;
+pub use neighborhood::NeighborhoodDrawing;
 pub use series::{Mark, Series};
 pub use tree::TreeDrawing;

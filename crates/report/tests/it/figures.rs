@@ -3,7 +3,7 @@
 
 use mediant_grid::{AsciiMap, Grid};
 use mediant_moves::{DecompositionTree, FiniteK, Vector};
-use mediant_report::{Axis, Chart, GridDrawing, Mark, Scale, Series, TreeDrawing};
+use mediant_report::{Axis, Chart, GridDrawing, Mark, NeighborhoodDrawing, Scale, Series, TreeDrawing};
 
 use crate::svg::{Element, check, points, texts};
 
@@ -92,6 +92,50 @@ fn a_map_is_drawn() {
         .path("k = 2", [(0.5, 0.5), (0.5, 3.5), (3.5, 3.5)])
         .path("shortest", [(0.5, 0.5), (0.5, 2.5), (1.5, 3.5), (3.5, 3.5)]);
     insta::assert_snapshot!(drawing.svg());
+}
+
+/// Each path has a group of its own, and the same elements as in the drawing that stands still.
+#[test]
+fn paths_come_forward_in_turn() {
+    let drawing = GridDrawing::new("Around a block", &small_map())
+        .path("k = 2", [(0.5, 0.5), (0.5, 3.5), (3.5, 3.5)])
+        .path("shortest", [(0.5, 0.5), (0.5, 2.5), (1.5, 3.5), (3.5, 3.5)]);
+    let still = drawing.svg();
+    let moving = drawing.in_turn().svg();
+    let groups: Vec<String> = check(&moving, "in turn")
+        .iter()
+        .filter(|element| element.name == "g")
+        .filter_map(|element| element.attribute("class").map(str::to_owned))
+        .collect();
+    assert_eq!(groups, ["turn turn0", "turn turn1"]);
+    assert_eq!(moving.matches("@keyframes").count(), 2);
+    // At the turn of each the other is faint; at the last turns both are there.
+    let rule = "@keyframes turn1{0%,25.0%{opacity:0.1}30.0%,50.0%{opacity:1}100%{opacity:1}}";
+    assert!(moving.contains(rule), "{moving}");
+    let is_of_turns = |line: &&str| line.contains("turn") || *line == "</g>";
+    let without: Vec<&str> = moving.lines().filter(|line| !is_of_turns(line)).collect();
+    assert_eq!(without, still.lines().collect::<Vec<_>>());
+}
+
+/// A tip for each move, and as many corners on the circle.
+#[test]
+fn neighborhoods_are_drawn() -> Result<(), mediant_moves::KError> {
+    let ks = || (2..=6).filter_map(|k| FiniteK::new(k).ok());
+    let moves = check(&NeighborhoodDrawing::moves("Moves", ks())?.note("of five k").svg(), "moves");
+    let tips = |elements: &[Element], class: &str| {
+        elements.iter().filter(|element| element.name == "circle" && element.is(class)).count()
+    };
+    // The five centers are gray, as are the moves that N(k − 1) has.
+    assert_eq!((tips(&moves, "s1"), tips(&moves, "r")), (4 + 4 + 8 + 16 + 32, 5 + 4 + 8 + 16 + 32));
+    let reach = NeighborhoodDrawing::reach("Reach", ks())?.svg();
+    let figures: Vec<usize> = check(&reach, "reach")
+        .iter()
+        .filter(|element| element.name == "path" && element.is("s0"))
+        .map(|element| points(element).len())
+        .collect();
+    assert_eq!(figures, [4, 8, 16, 32, 64]);
+    assert!(reach.contains("at worst 8.24 % longer") && reach.contains("at worst 0.75 % longer"));
+    Ok(())
 }
 
 #[test]
