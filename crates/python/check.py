@@ -20,6 +20,7 @@ import venv
 
 HERE = pathlib.Path(__file__).resolve().parent
 ENVIRONMENT = HERE.parent.parent / "target" / "python-check"
+GUIDE = HERE.parent.parent / "docs" / "guide" / "src"
 ALLOWED = HERE / "tests" / "typed" / "unchecked_by_runtime.txt"
 
 
@@ -60,19 +61,19 @@ def prepare(wheel: pathlib.Path, extras: str, keep: bool) -> str:
     return python
 
 
-def run_readme(python: str) -> None:
-    """Run the Python examples of the README, each as a program of its own."""
-    blocks = re.findall(
-        r"^```python\n(.*?)^```", (HERE / "README.md").read_text(encoding="utf-8"), re.S | re.M
-    )
-    folder = ENVIRONMENT / "readme"
+def run_examples(python: str) -> None:
+    """Run the Python examples of the README and of the guide, each as a program of its own."""
+    folder = ENVIRONMENT / "examples"
     folder.mkdir(exist_ok=True)
-    for number, block in enumerate(blocks, 1):
-        name = folder / f"example_{number}.py"
-        name.write_text(f"import os\nos.chdir({str(folder)!r})\n{block}", encoding="utf-8")
-        run(f"README, example {number} of {len(blocks)}", [python, str(name)], MPLBACKEND="agg")
-    if not blocks:
-        sys.exit("README.md: no examples found")
+    for page in [HERE / "README.md", *sorted(GUIDE.rglob("*.md"))]:
+        blocks = re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.S | re.M)
+        if not blocks and page.parent == HERE:
+            sys.exit("README.md: no examples found")
+        for number, block in enumerate(blocks, 1):
+            name = folder / f"{page.stem}_{number}.py"
+            name.write_text(f"import os\nos.chdir({str(folder)!r})\n{block}", encoding="utf-8")
+            title = f"{page.name}, example {number} of {len(blocks)}"
+            run(title, [python, str(name)], MPLBACKEND="agg")
 
 
 def main() -> None:
@@ -106,7 +107,7 @@ def main() -> None:
     if wishes.long:
         calls = [*module, "pytest", "-n", "auto", "tests/test_mistakes.py"]
         run("200,000 mistaken calls", calls, MEDIANT_CALLS="200000")
-    run_readme(python)
+    run_examples(python)
     if wishes.cluster:
         run("Clusters", [*module, "pytest", "tests/cluster"])
     print("== All is well")

@@ -6,7 +6,7 @@ use std::{ffi::OsString, process::ExitCode};
 use clap::{Args, Parser, Subcommand};
 use xtask::{
     c, ci, describe, download, fuzz, gppc, mutants, package,
-    program::{COMPARE, PROVE, REPRODUCE, SOAK, VERIFY},
+    program::{COMPARE, GUIDE, PROVE, REPRODUCE, SOAK, VERIFY},
     tidy, web,
 };
 
@@ -32,6 +32,8 @@ enum Task {
     Soak(HandedOn),
     /// Measure the papers' tables and figures, and write them beside the published values to docs/results
     ReproduceTables(HandedOn),
+    /// Draw the figures of the guide, and build it by mdBook
+    Guide(HandedOn),
     /// Write what every language says of calls and engines, from the library's description of itself
     Describe,
     /// Check the rules of the project that the compiler does not know
@@ -69,6 +71,7 @@ fn main() -> ExitCode {
         Task::Compare(options) => COMPARE.run(&options.arguments),
         Task::Soak(options) => SOAK.run(&options.arguments),
         Task::ReproduceTables(options) => REPRODUCE.run(&options.arguments),
+        Task::Guide(options) => GUIDE.run(&options.arguments),
         Task::Describe => describe::run().map(done),
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),

@@ -29,6 +29,8 @@ pub const COMPARE: Program = Program { package: "mediant-bench", name: "compare"
 pub const SOAK: Program = Program { package: "mediant-bench", name: "soak" };
 /// Reproduces the papers' tables and figures.
 pub const REPRODUCE: Program = Program { package: "mediant-papers", name: "reproduce-tables" };
+/// Draws the figures of the guide, and builds it.
+pub const GUIDE: Program = Program { package: "mediant-guide", name: "mediant-guide" };
 
 impl Program {
     /// The command that compiles the program for release and runs it with these arguments. It runs in the

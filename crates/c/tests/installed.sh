@@ -53,6 +53,23 @@ by_pkg_config() {
   [ "$(pkg-config --modversion mediant)" = "$version" ] || fails "mediant.pc is not of version $version"
 }
 
+# The programs of the guide's page, which say what they print.
+of_guide() {
+  PKG_CONFIG_PATH=$1/lib/pkgconfig
+  export PKG_CONFIG_PATH
+  for language in c cpp; do
+    awk -v begin="\`\`\`$language" '$0 == begin { on = 1; next } /^```/ { on = 0 } on' \
+      "$root/docs/guide/src/start/c.md" >"$work/first.$language"
+    [ -s "$work/first.$language" ] || fails "the guide has no program in $language"
+  done
+  cc "$work/first.c" $(pkg-config --cflags --libs mediant) -o "$work/first-c"
+  c++ -std=c++17 "$work/first.cpp" $(pkg-config --cflags --libs mediant) -o "$work/first-cpp"
+  for program in first-c first-cpp; do
+    LD_LIBRARY_PATH=$1/lib "$work/$program" >"$work/said" || fails "$program of the guide ended with $?"
+    grep -qx '3 points, length 6.513' "$work/said" || fails "$program of the guide prints $(cat "$work/said")"
+  done
+}
+
 by_cmake() {
   rm -rf "$work/build"
   { cmake -S "$examples/cmake" -B "$work/build" "-DCMAKE_PREFIX_PATH=$1" && cmake --build "$work/build"; } \
@@ -110,6 +127,7 @@ files "$work/first" lib
 sh "$here/exports.sh" "$work/first/lib/libmediant.so" "MEDIANT_$interface"
 readelf -d "$work/first/lib/libmediant.so" | grep -q "SONAME.*\[libmediant.so.$interface\]" || fails "the SONAME"
 used_in "$work/first"
+! has pkg-config "the guide's programs are not built" || of_guide "$work/first"
 mismatched "$work/first"
 
 # It may be moved.

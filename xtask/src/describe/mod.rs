@@ -113,7 +113,7 @@ fn regions(description: &Description) -> Vec<Region> {
         region("crates/python/python/mediant/_mediant.pyi", "calls", python::keywords(packages)),
         region("crates/web/src/types.rs", "calls", typescript::interfaces(packages)),
         region("crates/web/page/src/model/described.js", "page", typescript::page(packages)),
-        region("README.md", "engines", markdown::engines(description)),
+        region("docs/guide/src/engines/engines.md", "engines", markdown::engines(description)),
         region("docs/calls.md", "parameters", markdown::parameters(description)),
     ]
 }

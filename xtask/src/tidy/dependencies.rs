@@ -22,7 +22,7 @@ const fn layer(package: &'static str, uses: &'static [&'static str], reason: &'s
 }
 
 /// The layers, lowest first, in four groups.
-const LAYERS: [Layer; 19] = [
+const LAYERS: [Layer; 20] = [
     // The mathematics and the map.
     Layer {
         foreign: false,
@@ -76,6 +76,7 @@ const LAYERS: [Layer; 19] = [
         &[MOVES, GRID, SEARCH, SUBGOAL, LIBRARY, FORMATS, ORACLE, REPORT, SETS, BENCH],
         "the papers are reproduced by the library, not by the program",
     ),
+    layer("mediant-guide", &[LIBRARY, REPORT, SETS], "the guide shows what a user of the library can do"),
     layer("xtask", &[REPORT, SETS], "chores that run engines are programs of other crates"),
 ];
 

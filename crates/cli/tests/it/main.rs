@@ -12,6 +12,7 @@ mod costs;
 mod edits;
 mod errors;
 mod grounds;
+mod guide;
 mod hierarchy;
 mod jsonl;
 mod many;

@@ -99,7 +99,7 @@ impl Canvas {
         );
     }
 
-    /// What follows belongs together, up to [`end_group`](Self::end_group).
+    /// The elements that follow belong together, up to [`end_group`](Self::end_group).
     pub(super) fn begin_group(&mut self, class: &str) {
         let _ = writeln!(self.body, "<g{}>", attribute(class));
     }

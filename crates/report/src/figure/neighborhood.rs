@@ -12,7 +12,7 @@ const GAP: f64 = 18.0;
 /// Between a panel's border and what is drawn in it.
 const INSET: f64 = 5.0;
 
-/// What the panels show.
+/// The content of the panels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
     Moves,

@@ -6,7 +6,7 @@ use super::canvas::Canvas;
 const SECONDS: f64 = 1.6;
 /// The share of a turn in which one part goes and the next one comes.
 const FADE: f64 = 0.2;
-/// What is seen of the others.
+/// How much is seen of the others.
 const FAINT: f64 = 0.1;
 
 /// The class of the part of this number.

@@ -6,6 +6,7 @@ import {
   existsSync,
   mkdirSync,
   mkdtempSync,
+  readdirSync,
   readFileSync,
   rmSync,
   statSync,
@@ -93,13 +94,16 @@ function project() {
 test("the examples run as they stand", () => {
   const folder = project();
   const example = join(ROOT, "crates/web/example.mjs");
-  const readme = readFileSync(join(ROOT, "crates/web/README.md"), "utf8");
-  const programs = [...readme.matchAll(/^```(?:js|javascript|mjs)\n(.*?)^```/gms)].map((match) => match[1]);
+  const guide = join(ROOT, "docs/guide/src");
+  const pages = readdirSync(guide, { recursive: true }).filter((name) => name.endsWith(".md"));
+  const programs = [join(ROOT, "crates/web/README.md"), ...pages.sort().map((name) => join(guide, name))]
+    .flatMap((page) => [...readFileSync(page, "utf8").matchAll(/^```(?:js|javascript|mjs)\n(.*?)^```/gms)])
+    .map((match) => match[1]);
   // The others are parts of programs.
   const whole = programs.filter((text) => /^import .* from "mediant";/m.test(text));
   try {
     if (existsSync(example)) whole.push(readFileSync(example, "utf8"));
-    assert.ok(whole.length > 0, "neither the README nor example.mjs has a program");
+    assert.ok(whole.length > 3, "the README, the guide and example.mjs have few programs");
     whole.forEach((text, number) => {
       const file = join(folder, `example-${number}.mjs`);
       writeFileSync(file, text);
