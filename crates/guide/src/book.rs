@@ -84,9 +84,11 @@ pub fn build(root: &Path, files_at: &str) -> Result<PathBuf, GuideError> {
         fs::remove_dir_all(&folder).map_err(GuideError::at(&folder))?;
     }
     copy(root, &folder.join("src"), files_at)?;
-    let settings = root.join("docs/guide/book.toml");
-    fs::copy(&settings, folder.join("book.toml")).map_err(GuideError::at(&settings))?;
-    match Command::new("mdbook").arg("build").arg(&folder).args(["--dest-dir", "book"]).status() {
+    for name in ["book.toml", "guide.css"] {
+        let from = root.join("docs/guide").join(name);
+        fs::copy(&from, folder.join(name)).map_err(GuideError::at(&from))?;
+    }
+    match Command::new("mdbook").arg("build").arg(&folder).arg("--dest-dir").arg(root.join(BOOK)).status() {
         Err(_) => Err(GuideError::NoMdbook),
         Ok(status) if status.success() => Ok(root.join(BOOK)),
         Ok(_) => Err(GuideError::Mdbook),
