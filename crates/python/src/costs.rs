@@ -35,11 +35,15 @@ pub(crate) fn cell_size(value: Option<&Bound<'_, PyAny>>) -> PyResult<(f64, f64)
             (height, width)
         }
     };
-    let is_side = |side: f64| side.is_finite() && side > 0.0;
+    let is_side = |side: f64| (1e-120..=1e120).contains(&side);
     if is_side(height) && is_side(width) && height.max(width) / height.min(width) <= 65_536.0 {
         return Ok((height, width));
     }
-    let wrong = format!("cells of {height} × {width}: height and width must be positive numbers");
+    // In few digits, however large or small they are.
+    let wrong = format!(
+        "cells of {height:?} × {width:?}: height and width must be positive numbers, from 1e-120 to 1e120, and \
+         neither more than 65,536 times the other"
+    );
     Err(argument(name, &wrong))
 }
 
@@ -114,7 +118,7 @@ pub(crate) fn each(name: &str, value: &Bound<'_, PyAny>, count: usize) -> PyResu
     if !matches!(array.dtype().kind(), b'i' | b'u' | b'f') && !array.is_empty() {
         return Err(wrong_type(name, expected, value));
     }
-    let numbers = array.call_method1("astype", ("float64",))?;
+    let numbers = array.call_method1("astype", ("float64",)).map_err(wrong)?;
     let numbers = numbers.extract::<PyReadonlyArray2<'_, f64>>().map_err(wrong)?;
     let numbers: Vec<f64> = numbers.as_array().iter().copied().collect();
     match (array.shape(), &numbers[..]) {

@@ -27,6 +27,7 @@ SYNONYMS = {
     "side": ["clusters"],
     "gap": ["k = "],
     "corners": ["k = "],
+    "neighbors": ["k from"],
 }
 
 
