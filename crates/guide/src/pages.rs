@@ -32,5 +32,4 @@ pages! {
     Costs: "engines/costs.md",
     Landmarks: "engines/landmarks.md",
     Repair: "engines/repair.md",
-    Adding: "adding.md",
 }
