@@ -10,11 +10,11 @@ use mediant_report::{GridDrawing, NeighborhoodDrawing};
 pub fn all() -> Result<Vec<(&'static str, String)>, Error> {
     Ok(vec![
         ("moves.svg", moves()?),
-        ("balls.svg", balls()?),
+        ("reach.svg", reach()?),
         ("paths.svg", paths()?),
-        ("centers.svg", centers()?),
-        ("vertices.svg", vertices()?),
-        ("corners.svg", corners()?),
+        ("between-centers.svg", between_centers()?),
+        ("between-corners.svg", between_corners()?),
+        ("corner-rules.svg", corner_rules()?),
     ])
 }
 
@@ -27,7 +27,7 @@ fn moves() -> Result<String, Error> {
     Ok(NeighborhoodDrawing::moves("The moves of N(k)", ks(2..=6)?)?.note(note).svg())
 }
 
-fn balls() -> Result<String, Error> {
+fn reach() -> Result<String, Error> {
     let note = "On an empty map. The dashed circle is what a straight line of that length reaches.";
     Ok(NeighborhoodDrawing::reach("What a path of one length reaches", ks(2..=5)?)?.note(note).svg())
 }
@@ -84,21 +84,21 @@ fn few_blocks() -> Result<Map, Error> {
     Map::from_rows(["........", "...##...", "...##...", "........", "........"])
 }
 
-fn centers() -> Result<String, Error> {
+fn between_centers() -> Result<String, Error> {
     let map = few_blocks()?;
     let drawing = GridDrawing::new("Centers: from the middle of a cell to that of another", map.grid());
     let motions = [("k = 3", Motion::centers(K::N8)), ("k = 4", Motion::centers(K::N16))];
     Ok(with_paths(drawing, &map, ((1, 1), (6, 2)), motions)?.svg())
 }
 
-fn vertices() -> Result<String, Error> {
+fn between_corners() -> Result<String, Error> {
     let map = few_blocks()?;
     let drawing = GridDrawing::new("Corners: from corner to corner, along obstacles, too", map.grid());
     let motions = [("k = 3", Motion::corners(K::N8)), ("any angle", Motion::corners(K::ANY))];
     Ok(with_paths(drawing, &map, ((1, 1), (8, 4)), motions)?.svg())
 }
 
-fn corners() -> Result<String, Error> {
+fn corner_rules() -> Result<String, Error> {
     let map = Map::from_rows([".......", "..#....", "...#...", ".......", "......."])?;
     let drawing = GridDrawing::new("Three rules for the corners of obstacles", map.grid());
     let rules = [("never", CornerRule::Never), ("one", CornerRule::One), ("always", CornerRule::Always)];

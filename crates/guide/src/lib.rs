@@ -6,7 +6,6 @@
 //! links to its files become addresses there ([`book`]).
 //!
 //! Not here: the words of calls and engines, which `cargo xtask describe` writes.
-#![allow(clippy::print_stdout, reason = "its program talks to its user")]
 
 pub mod book;
 mod error;

@@ -129,7 +129,7 @@ pub(super) fn recorded(
     Ok(states)
 }
 
-/// How many maps of each suite and set are proven by any sources.
+/// The number of maps of each suite and set that any sources have proven.
 pub(super) fn reach(folder: &Path) -> Result<BTreeMap<(String, String), usize>, ProveError> {
     let mut reach = BTreeMap::new();
     for is_of_laws in [false, true] {

@@ -2,11 +2,11 @@
 
 use super::canvas::Canvas;
 
-/// How long each part stands alone, in seconds.
+/// The seconds for which each part stands alone.
 const SECONDS: f64 = 1.6;
 /// The share of a turn in which one part goes and the next one comes.
 const FADE: f64 = 0.2;
-/// How much is seen of the others.
+/// The opacity of the others.
 const FAINT: f64 = 0.1;
 
 /// The class of the part of this number.
