@@ -11,10 +11,11 @@
 //! mutant it has to fail somewhere else then.
 //!
 //! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on
-//! where it was; `--again` tries those that survived, with the tests of today. The record is
-//! `docs/proof/mutants.json`. Each survivor is explained in `mutants/explained.json`, or the run says that
-//! it is not.
+//! where it was; `--again` tries those that survived, with the tests of today. `--record` writes the counts
+//! to `docs/proof/mutants.json`, and the outcomes beside it (`kept`), where another machine finds them. Each
+//! survivor is explained in `mutants/explained.json`, or the run says that it is not.
 
+mod kept;
 mod list;
 mod record;
 mod schema;
@@ -62,10 +63,10 @@ pub struct Options {
     /// The tests that run at the same time
     #[arg(long, value_name = "N", default_value = "2")]
     threads: usize,
-    /// Try those again that survived, or to which no test came
+    /// Try those again that survived without a reason, or to which no test came
     #[arg(long)]
     again: bool,
-    /// Write docs/proof/mutants.json
+    /// Write docs/proof/mutants.json, and the outcomes beside it
     #[arg(long)]
     record: bool,
 }
@@ -96,18 +97,28 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let sources = digests(&mutants)?;
     let folder = root().join("target/mutants");
     let file = folder.join("outcomes.jsonl");
-    let mut known = outcomes(&file, &sources);
+    let kept_file = root().join(kept::FILE);
+    let mut known = kept::read(&kept_file, &mutants, &sources);
+    known.extend(outcomes(&file, &sources));
+    let tell = |known: &HashMap<String, Outcome>| {
+        if options.record {
+            kept::write(&kept_file, &mutants, &sources, known).map_err(Error::at(&kept_file))?;
+        }
+        record::tell(&mutants, known, options.record)
+    };
     if options.minutes == Some(0.0) {
-        return record::tell(&mutants, &known, options.record);
+        return tell(&known);
     }
     let project = MutatedProject::new(&mutants)?;
     let built = project.build(&mutants)?;
     let tests = tests(&built, &folder, options.threads)?;
+    let explained = record::explained()?;
     let is_asked = |mutant: &&Mutant| {
         options.groups.is_empty() || options.groups.iter().any(|name| name == mutant.group)
     };
     let is_open = |mutant: &&Mutant| match known.get(&mutant.key()) {
-        Some(Outcome::Survived(..) | Outcome::Unreached) => options.again,
+        Some(Outcome::Survived(..)) => options.again && !explained.iter().any(|reason| reason.holds(mutant)),
+        Some(Outcome::Unreached) => options.again,
         Some(_) => false,
         None => true,
     };
@@ -133,7 +144,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         Ok(Some(tried))
     })?;
     known.extend(tried.into_iter().flatten().map(|tried| (tried.key, tried.outcome)));
-    record::tell(&mutants, &known, options.record)
+    tell(&known)
 }
 
 /// The outcomes that a file holds of mutants whose sources are as they were; the last one of a mutant counts.

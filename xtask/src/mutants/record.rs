@@ -19,7 +19,7 @@ const EXPLAINED: &str = include_str!("explained.json");
 
 /// Why mutants of a file survive.
 #[derive(Debug, Deserialize)]
-struct Explained {
+pub(super) struct Explained {
     file: String,
     /// Changes, in the words of cargo-mutants; all mutants with these words.
     #[serde(default)]
@@ -32,7 +32,7 @@ struct Explained {
 }
 
 impl Explained {
-    fn holds(&self, mutant: &Mutant) -> bool {
+    pub(super) fn holds(&self, mutant: &Mutant) -> bool {
         let Mutant { file, change, .. } = mutant;
         let is_in = |function: &String| {
             let rest = change.strip_prefix("replace ").and_then(|rest| rest.strip_prefix(&**function));
@@ -98,7 +98,11 @@ pub(super) fn tell(
     if survivors == 0 { Ok(()) } else { Err(Error::Survivors { count: survivors }) }
 }
 
-fn explained() -> Result<Vec<Explained>, Error> {
+/// The reasons of survivors.
+///
+/// # Errors
+/// [`Error::Step`] if their file cannot be read.
+pub(super) fn explained() -> Result<Vec<Explained>, Error> {
     serde_json::from_str(EXPLAINED)
         .map_err(|error| Error::Step { command: format!("reading mutants/explained.json: {error}") })
 }
