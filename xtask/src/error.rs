@@ -67,6 +67,14 @@ pub enum Error {
         /// The command.
         command: String,
     },
+    /// An example that says something else than its page.
+    #[error("an example does not say `{expected}`, but: {said}")]
+    Said {
+        /// Its output.
+        said: String,
+        /// What its page has.
+        expected: String,
+    },
     /// A tool or crate that a chore needs and this machine lacks.
     #[error("{what}; {mend}")]
     Lacking {

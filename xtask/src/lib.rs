@@ -2,9 +2,9 @@
 //!
 //! **The key decision: chores are Rust, and thin.** No shell script, so that they run on every system that
 //! Rust runs on; and no engine, so that `cargo xtask tidy` compiles none. `download`, `tidy`, `package`,
-//! `web`, `c`, `gppc`, `fuzz`, `mutants` and `ci` are modules here; the rules of `tidy` are an ordinary test
-//! as well. `verify`, `prove`, `soak`, `compare` and `reproduce-tables` run engines: they are programs of
-//! `mediant-bench` and `mediant-papers`, to which [`program`] hands all arguments on.
+//! `release`, `web`, `c`, `gppc`, `fuzz`, `mutants` and `ci` are modules here; the rules of `tidy` are an
+//! ordinary test as well. `verify`, `prove`, `soak`, `compare` and `reproduce-tables` run engines: they are
+//! programs of `mediant-bench` and `mediant-papers`, to which [`program`] hands all arguments on.
 //!
 //! A further chore is a variant of `Task` in `main.rs` and the line that calls it; if it runs an engine, it
 //! is a program of the crate that it belongs to.
@@ -21,6 +21,7 @@ pub mod mutants;
 pub mod package;
 pub mod program;
 pub mod project;
+pub mod release;
 pub mod tidy;
 mod tree;
 pub mod web;

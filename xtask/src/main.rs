@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 use xtask::{
     c, ci, describe, download, fuzz, gppc, mutants, package,
     program::{COMPARE, GUIDE, PROVE, REPRODUCE, SOAK, VERIFY},
-    tidy, web,
+    release, tidy, web,
 };
 
 /// The chores of the Mediant workspace
@@ -42,6 +42,8 @@ enum Task {
     Ci,
     /// Package the published crates, and compile them in an empty folder from their packages alone
     Package,
+    /// Make the files of all packages, install each in an empty folder, and run its first example
+    Release(release::Options),
     /// Build the entries of the Grid-Based Path Planning Competition, as its kits take them
     Gppc(gppc::Options),
     /// Build the npm package and the page that shows it: target/web/package and target/web/page
@@ -76,6 +78,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run().map(done),
         Task::Ci => ci::run().map(done),
         Task::Package => package::run().map(done),
+        Task::Release(options) => release::run(&options).map(done),
         Task::Gppc(options) => gppc::run(&options).map(done),
         Task::Web(options) => web::run(options).map(done),
         Task::Fuzz(options) => fuzz::run(&options).map(done),

@@ -20,7 +20,7 @@ use mediant_sets::root;
 use crate::{
     Error,
     ci::step,
-    project::{self, published},
+    project::{self, Package, published},
 };
 
 /// The files of every package.
@@ -35,43 +35,60 @@ pub fn run() -> Result<(), Error> {
     let folder = tempfile::tempdir().map_err(Error::at(&std::env::temp_dir()))?;
     let folder = folder.path();
     pack(folder)?;
-    let members = unpack(folder)?;
-    let manifest = folder.join("Cargo.toml");
-    fs::write(&manifest, workspace(&members)).map_err(Error::at(&manifest))?;
-    // The versions of other crates that the workspace is tested with, so that no network is needed.
-    let lock = folder.join("Cargo.lock");
-    fs::copy(root().join("Cargo.lock"), &lock).map_err(Error::at(&lock))?;
+    let members = unpack(folder, folder)?;
+    write_workspace(folder, &members)?;
     for name in published() {
         compile(folder, &["check", "--package", name])?;
     }
     compile(folder, &["check", "--workspace", "--all-features"])
 }
 
-/// Runs `cargo package` for all crates at once, since none of them is in a registry yet. That takes cargo
-/// 1.90 or newer.
-fn pack(folder: &Path) -> Result<(), Error> {
+/// Packs all published crates into files of this folder, `NAME-VERSION.crate`.
+///
+/// It takes all at once, since none of them is in a registry yet. That takes cargo 1.90 or newer.
+///
+/// # Errors
+/// [`Error::Step`] if cargo fails, [`Error::Io`] for a file.
+pub(crate) fn pack(into: &Path) -> Result<(), Error> {
     let packages = published().flat_map(|name| ["--package", name]);
     // Not asked for our own crates, no index is needed. `cargo xtask tidy` checks the metadata.
     let options = ["package", "--offline", "--no-verify", "--no-metadata", "--allow-dirty"];
     let arguments: Vec<&str> = options.into_iter().chain(packages).collect();
+    let scratch = tempfile::tempdir().map_err(Error::at(&std::env::temp_dir()))?;
     let mut command = project::cargo();
-    command.args(&arguments).arg("--target-dir").arg(target(folder));
-    step(&mut command, &format!("cargo {}", arguments.join(" ")))
+    command.args(&arguments).arg("--target-dir").arg(scratch.path());
+    step(&mut command, &format!("cargo {}", arguments.join(" ")))?;
+    for package in published_packages()? {
+        let file = archive(&package);
+        let to = into.join(&file);
+        fs::copy(scratch.path().join("package").join(&file), &to).map_err(Error::at(&to))?;
+    }
+    Ok(())
 }
 
-/// Unpacks the packages, and returns their names, each with its folder's.
-fn unpack(folder: &Path) -> Result<Vec<(String, String)>, Error> {
+fn published_packages() -> Result<impl Iterator<Item = Package>, Error> {
+    let is_published = |package: &Package| published().any(|name| name == package.name);
+    Ok(project::packages()?.into_iter().filter(is_published))
+}
+
+fn archive(Package { name, version, .. }: &Package) -> String {
+    format!("{name}-{version}.crate")
+}
+
+/// Unpacks the packages that are in one folder into another, and returns their names, each with its folder's.
+///
+/// # Errors
+/// [`Error::Step`] if one cannot be unpacked, [`Error::Missing`] names a file that it lacks.
+pub(crate) fn unpack(from: &Path, folder: &Path) -> Result<Vec<(String, String)>, Error> {
     let mut members = Vec::new();
-    for package in project::packages()? {
-        if !published().any(|name| name == package.name) {
-            continue;
+    for package in published_packages()? {
+        let (file, unpacked) = (archive(&package), format!("{}-{}", package.name, package.version));
+        let to = folder.join(&file);
+        if from != folder {
+            fs::copy(from.join(&file), &to).map_err(Error::at(&to))?;
         }
-        let unpacked = format!("{}-{}", package.name, package.version);
-        let file = format!("{unpacked}.crate");
-        let archive = target(folder).join("package").join(&file);
-        // Relative paths: the `tar` of some systems takes what is before a colon for another machine.
-        let relative = archive.strip_prefix(folder).unwrap_or(&archive);
-        step(Command::new("tar").arg("-xzf").arg(relative).current_dir(folder), &format!("tar -xzf {file}"))?;
+        // A relative path: the `tar` of some systems takes what is before a colon for another machine.
+        step(Command::new("tar").arg("-xzf").arg(&file).current_dir(folder), &format!("tar -xzf {file}"))?;
         if let Some(file) = FILES.into_iter().find(|file| !folder.join(&unpacked).join(file).is_file()) {
             return Err(Error::Missing { package: package.name, file });
         }
@@ -80,10 +97,33 @@ fn unpack(folder: &Path) -> Result<Vec<(String, String)>, Error> {
     Ok(members)
 }
 
-/// A workspace of these packages, in which they depend on one another and not on what a registry has.
+/// Makes the folder a workspace of these packages.
+///
+/// # Errors
+/// [`Error::Io`] for its files.
+pub(crate) fn write_workspace(folder: &Path, members: &[(String, String)]) -> Result<(), Error> {
+    write_manifest(folder, &workspace(members))
+}
+
+/// Writes the `Cargo.toml` of a folder, and a lock beside it: the versions of other crates that the project is
+/// tested with, so that no network is needed.
+///
+/// # Errors
+/// [`Error::Io`] for these files.
+pub(crate) fn write_manifest(folder: &Path, text: &str) -> Result<(), Error> {
+    let (manifest, lock) = (folder.join("Cargo.toml"), folder.join("Cargo.lock"));
+    fs::write(&manifest, text).map_err(Error::at(&manifest))?;
+    fs::copy(root().join("Cargo.lock"), &lock).map_err(Error::at(&lock)).map(drop)
+}
+
 fn workspace(members: &[(String, String)]) -> String {
     let folders: Vec<&str> = members.iter().map(|(_, folder)| &**folder).collect();
-    let mut text = format!("[workspace]\nresolver = \"3\"\nmembers = {folders:?}\n\n[patch.crates-io]\n");
+    format!("[workspace]\nresolver = \"3\"\nmembers = {folders:?}\n\n{}", patches(members))
+}
+
+/// What lets packages depend on one another, and not on what a registry has.
+pub(crate) fn patches(members: &[(String, String)]) -> String {
+    let mut text = "[patch.crates-io]\n".to_owned();
     for (name, folder) in members {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{name} = {{ path = {folder:?} }}");
