@@ -3,6 +3,7 @@
 
 pub mod changes;
 pub mod costs;
+mod peers;
 mod report;
 
 use std::{
@@ -59,7 +60,27 @@ pub struct Options {
     /// With --changes or --costs: measure nothing, but draw the page again from its record
     #[arg(long, requires = "study")]
     render: bool,
-    /// Also write all figures to this file
+    /// Instead, time our engines beside the programs that DIR/peers.json names, each alone in its process,
+    /// and write docs/results/data/peers.json
+    #[arg(long, value_name = "DIR", group = "study", conflicts_with_all = ["engines", "typed", "every"])]
+    peers: Option<PathBuf>,
+    /// With --peers: the lists, each of the instances whose index N divides
+    #[arg(long, value_name = "N", num_args = 1.., default_values_t = [20, 1], requires = "peers")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    lists: Vec<u32>,
+    /// With --peers: the rounds, of which the median counts
+    #[arg(long, value_name = "N", default_value_t = 3, requires = "peers")]
+    rounds: u32,
+    /// With --peers: the seconds of passes after the first, if --passes are over sooner
+    #[arg(long, value_name = "S", default_value_t = 1.0, requires = "peers")]
+    seconds: f64,
+    /// With --peers: the minutes after which a program is stopped on a map
+    #[arg(long, value_name = "N", default_value_t = 30.0, requires = "peers")]
+    minutes: f64,
+    /// Be one of the programs that --peers runs
+    #[arg(long, value_name = "WORD", num_args = 1.., hide = true, allow_hyphen_values = true, group = "study")]
+    alone: Vec<String>,
+    /// Also write all figures to this file; with --peers, the record to this one alone
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
 }
@@ -102,6 +123,24 @@ pub enum CompareError {
         name: String,
         /// All names.
         known: String,
+    },
+    /// A list of other programs that is none.
+    #[error("{}: {wrong}", path.display())]
+    Peers {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        wrong: String,
+    },
+    /// One of our engines that cannot do a map alone.
+    #[error("{engine} on map `{map}`: {reason}")]
+    Alone {
+        /// The engine and the motion.
+        engine: String,
+        /// The map.
+        map: String,
+        /// In words, why.
+        reason: String,
     },
     /// None of the maps is there.
     #[error("none of the maps is there: {0}")]
@@ -150,6 +189,15 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     if options.costs {
         return if options.render { costs::render(root, &archive) } else { costs::run(root, &archive) };
     }
+    if !options.alone.is_empty() {
+        return Ok(write!(out, "{}", peers::alone::run(&options.alone)?)?);
+    }
+    if let Some(folder) = &options.peers {
+        for refusal in peers::run(root, &archive, folder, options)? {
+            writeln!(out, "not measured: {refusal}")?;
+        }
+        return Ok(());
+    }
     let references = ReferenceTimings::bundled()?;
     let names: Vec<&str> = references.maps.iter().map(|row| row.map.as_str()).collect();
     if let Some(name) = options.maps.iter().find(|name| !names.contains(&name.as_str())) {
@@ -187,6 +235,18 @@ pub fn run_in(root: &Path, options: &Options, out: &mut impl Write) -> Result<()
     match &options.json {
         None => Ok(()),
         Some(path) => write(path, report::json(root, &results)),
+    }
+}
+
+impl CompareError {
+    /// Names the file or folder that cannot be read.
+    fn at_read(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Read { path: path.to_owned(), source }
+    }
+
+    /// Names the file or folder that cannot be written.
+    fn at_write(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        move |source| Self::Write { path: path.to_owned(), source }
     }
 }
 

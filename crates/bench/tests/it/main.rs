@@ -4,6 +4,7 @@ mod changes;
 mod costs;
 mod measure;
 mod pages;
+mod peers;
 mod problem;
 mod prove;
 mod soak;
