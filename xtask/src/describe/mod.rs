@@ -3,9 +3,11 @@
 //! The library describes itself in `docs/description.json`, which a test of `mediant` holds to the code. From
 //! that file follow the keywords of Python's stub, the interfaces of TypeScript, and tables in Markdown: the
 //! regions between a line with `described: NAME` and one with `described: end`. So do the tables of
-//! `docs/proof.md` from the records in `docs/proof`. `tidy` compares them.
+//! `docs/proof.md` from the records in `docs/proof`, and the tables of speed beside other programs. `tidy`
+//! compares them.
 
 mod markdown;
+mod peers;
 mod python;
 mod records;
 mod typescript;
@@ -143,7 +145,9 @@ pub fn outdated(tree: &Tree) -> Result<Vec<(PathBuf, String)>, String> {
     let description: Description =
         serde_json::from_str(text(FILE)?).map_err(|error| format!("{FILE}: {error}"))?;
     let mut changed: Vec<(PathBuf, String)> = Vec::new();
-    for region in regions(&description).into_iter().chain(records::regions(tree)?) {
+    for region in
+        regions(&description).into_iter().chain(records::regions(tree)?).chain(peers::regions(tree)?)
+    {
         // A file has several regions.
         let at = changed.iter().position(|(path, _)| path == Path::new(region.file));
         let known = at.map_or_else(|| text(region.file), |at| Ok(changed[at].1.as_str()))?;

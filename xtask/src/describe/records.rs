@@ -35,12 +35,17 @@ fn drawn(record: &Record) -> String {
     for row in &record.rows {
         table.row(record.columns.iter().map(|column| cell(row, column)));
     }
+    format!("\n{}\n{}\n\n", table.markdown(), source(record))
+}
+
+/// Where the numbers of a record come from, in lines of prose.
+pub(super) fn source(record: &Record) -> String {
     let provenance = &record.provenance;
     let machine = provenance.machine.cpu.as_deref().unwrap_or("a processor without a name");
     let revision = provenance.revision.get(..12).unwrap_or(&provenance.revision);
     let drawn = provenance.drawn.trim_end_matches('.');
     let source = format!("*{}: {drawn}. Revision {revision}, on {machine}.*", record.title);
-    format!("\n{}\n{}\n\n", table.markdown(), wrapped(&source, WIDTH).join("\n"))
+    wrapped(&source, WIDTH).join("\n")
 }
 
 fn heading(column: &Column) -> String {
