@@ -139,8 +139,9 @@ fn about(record: &Record) -> String {
 /// The page of the deviations and their causes.
 fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
     let mut text = "# Where our numbers differ from the published ones\n\n[All results](README.md). Each \
-                    group belongs to one table column, figure or sentence of a paper. The difference is our \
-                    number over the published one, less 1.\n\n"
+                    row belongs to one table column, figure or sentence of a paper; below a table are its \
+                    causes. The difference is our number over the published one, less 1. The pages of the \
+                    papers have each number.\n\n"
         .to_owned();
     for page in Page::ALL {
         let mut groups: Vec<(&str, &str, Vec<&Claim>)> = Vec::new();
@@ -165,6 +166,7 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
         text += &format!("## [{}]({}.md)\n\n", page.title(), page.file());
         // A cause that several groups have in common is written once.
         let mut causes: Vec<&str> = Vec::new();
+        let mut table = Table::new(["causes", "where", "what", "differs by"]).names(3);
         for (source, cause, claims) in groups {
             let numbers: Vec<String> = cause
                 .lines()
@@ -177,11 +179,12 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
                     (at + 1).to_string()
                 })
                 .collect();
-            let plural = if numbers.len() == 1 { "" } else { "s" };
-            text +=
-                &format!("**{source}.** {} → *cause{plural} {}*\n\n", listed(&claims), numbers.join(", "));
+            let numbers = numbers.join(", ");
+            for (what, by) in listed(&claims) {
+                table.row([numbers.clone(), source.to_owned(), what, by]);
+            }
         }
-        text += "Causes:\n\n";
+        text += &format!("{}\nCauses:\n\n", table.markdown());
         for (at, cause) in causes.iter().enumerate() {
             text += &format!("{}. {}\n", at + 1, cause.trim());
         }
@@ -190,21 +193,21 @@ fn deviations(shown: &[(&Experiment, &Record, Section)]) -> String {
     text.trim_end().to_owned() + "\n"
 }
 
-/// A list of claims: one by one if there are few, else by their range.
-fn listed(claims: &[&Claim]) -> String {
+/// Claims with their differences: one by one if there are few, else by their range.
+fn listed(claims: &[&Claim]) -> Vec<(String, String)> {
     let by = |claim: &Claim| 100.0 * claim.difference().unwrap_or_default();
     if claims.len() <= 4 {
         let one = |claim: &&Claim| {
             let (published, ours) = (claim.text(claim.published), claim.text(claim.ours.unwrap_or_default()));
-            format!("{}: published {published}, here {ours} ({:+.1} %).", claim.what, by(claim))
+            let what = format!("{}: published {published}, here {ours}", claim.what);
+            (what, format!("{:+.1} %", by(claim)))
         };
-        return claims.iter().map(one).collect::<Vec<_>>().join(" ");
+        return claims.iter().map(one).collect();
     }
     let (least, most) = claims
         .iter()
         .fold((f64::MAX, f64::MIN), |(least, most), claim| (least.min(by(claim)), most.max(by(claim))));
-    let names: Vec<&str> = claims.iter().map(|claim| claim.what.as_str()).collect();
-    format!("{} numbers, by {least:+.1} to {most:+.1} %: {}.", claims.len(), names.join("; "))
+    vec![(format!("{} numbers", claims.len()), format!("{least:+.1} to {most:+.1} %"))]
 }
 
 /// The columns of the table of all experiments: verdicts of counts, then of times.
@@ -282,12 +285,16 @@ mod tests {
     fn few_claims_are_listed_and_many_are_summed_up() {
         let claims: Vec<Claim> = [2.2, 2.4, 1.0, 3.0, 2.5].map(|ours| claim(ours, "x")).to_vec();
         let few: Vec<&Claim> = claims.iter().take(2).collect();
+        let pair = |what: &str, by: &str| (what.to_owned(), by.to_owned());
         assert_eq!(
             listed(&few),
-            "cost 2.2: published 2.00, here 2.20 (+10.0 %). cost 2.4: published 2.00, here 2.40 (+20.0 %)."
+            [
+                pair("cost 2.2: published 2.00, here 2.20", "+10.0 %"),
+                pair("cost 2.4: published 2.00, here 2.40", "+20.0 %")
+            ]
         );
         let many: Vec<&Claim> = claims.iter().collect();
-        assert!(listed(&many).starts_with("5 numbers, by -50.0 to +50.0 %: cost 2.2; "));
+        assert_eq!(listed(&many), [pair("5 numbers", "-50.0 to +50.0 %")]);
     }
 
     fn record(quick: bool) -> Record {
@@ -307,13 +314,10 @@ mod tests {
         let whole = record(false);
         let text = deviations(&[(&EXPERIMENTS[0], &whole, section())]);
         assert!(
-            text.contains("**Table 1.** cost 2.2: published 2.00, here 2.20 (+10.0 %). → *causes 1, 2*"),
+            text.contains("| 1, 2 | Table 1 | cost 2.2: published 2.00, here 2.20 | +10.0 % |\n"),
             "{text}"
         );
-        assert!(
-            text.contains("**Table 2.** cost 3: published 2.00, here 3.00 (+50.0 %). → *cause 2*"),
-            "{text}"
-        );
+        assert!(text.contains("| 2 | Table 2 | cost 3: published 2.00, here 3.00 | +50.0 % |\n"), "{text}");
         assert!(text.contains("1. ties\n2. draw\n") && !text.contains("no deviation"), "{text}");
         // A sample says nothing about the paper.
         let quick = record(true);
