@@ -44,7 +44,7 @@ pub enum SetupError {
         k: FiniteK,
     },
     /// A finite k that is larger than the engine takes.
-    #[error("{engine} needs a k from 2 to {max}, found {k}")]
+    #[error("{engine} needs a k from 2 to {max}, found {}", with_neighbors(*k))]
     K {
         /// The engine.
         engine: Engine,
@@ -212,6 +212,11 @@ pub enum SetupError {
         /// The engines that have it.
         others: String,
     },
+}
+
+/// Whoever asked for neighbors finds them again.
+fn with_neighbors(k: FiniteK) -> String {
+    1_u64.checked_shl(k.get()).map_or_else(|| k.to_string(), |count| format!("{k} ({count} neighbors)"))
 }
 
 impl SetupError {

@@ -106,7 +106,7 @@ fn info(engine: Engine) -> JsValue {
 /// Why an engine does not go together with a motion and options, in a sentence; undefined if it does.
 ///
 /// ```js
-/// checkSetup("jps-block", { k: 4 }); // "jps-block needs a k from 2 to 3, found 4"
+/// checkSetup("jps-block", { k: 4 }); // "jps-block needs a k from 2 to 3, found 4 (16 neighbors)"
 /// ```
 ///
 /// @throws MediantError `unknown-name` for an engine that does not exist.

@@ -392,7 +392,7 @@ fn what_needs_no_map() {
     assert_eq!(check("anya", r#"{"placement": "center"}"#), Ok(None));
     assert_eq!(
         check("jps-block", r#"{"k": 4}"#),
-        Ok(Some("jps-block needs a k from 2 to 3, found 4".to_owned()))
+        Ok(Some("jps-block needs a k from 2 to 3, found 4 (16 neighbors)".to_owned()))
     );
     assert!(
         check("anya", r#"{"k": 4, "placement": "center"}"#)

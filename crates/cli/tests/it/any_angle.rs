@@ -232,14 +232,14 @@ fn what_does_not_go_together_is_refused() {
             "--engine anya --k 4 --placement center",
             &format!("anya needs placement corner; for center choose {centers}"),
         ),
-        ("--engine anya --corners one", "--corners: at any angle paths bend at corners: there is gap"),
+        ("--engine anya --corners one", "--corners: for k = any there is gap in its place: open or closed"),
         (
             "--k any --placement center --corners never",
-            "--corners: at any angle paths bend at corners: there is gap",
+            "--corners: for k = any there is gap in its place: open or closed",
         ),
         (
             "--k 4 --placement center --gap open",
-            "--gap: it is for placement corner; at centers there is corners",
+            "--gap: at centers it is for k = any; else there is corners in its place: never, one or always",
         ),
         (
             "--reference astar",

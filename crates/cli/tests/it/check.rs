@@ -267,7 +267,7 @@ fn files_without_paths() {
     let file = files.add("p.csv", "2,5\n");
     check(
         &format!("check builtin:cave {file} --placement center --gap open"),
-        "--gap: it is for placement corner; at centers there is corners",
+        "--gap: at centers it is for k = any; else there is corners in its place: never, one or always",
     );
 }
 

@@ -134,11 +134,11 @@ fn arguments_that_are_no_vertices() {
 fn options_that_do_not_go_together() {
     check(
         "run builtin:cave --placement center --gap open",
-        "--gap: it is for placement corner; at centers there is corners",
+        "--gap: at centers it is for k = any; else there is corners in its place: never, one or always",
     );
     check(
         "run builtin:cave --placement corner --corners never",
-        "--corners: it is for placement center; at corners there is gap",
+        "--corners: at corners there is gap in its place: open or closed",
     );
     check(
         "run builtin:cave --from 1,2 --to 3,4 --every 2",
@@ -192,8 +192,8 @@ fn what_an_engine_does_not_take() {
             "--engine canonical --keep-intermediate",
             format!("canonical takes no intermediate jump points: {jumpers}, jps-plus"),
         ),
-        ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4".to_owned()),
-        ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12".to_owned()),
+        ("--engine jps-block --k 4", "jps-block needs a k from 2 to 3, found 4 (16 neighbors)".to_owned()),
+        ("--engine jps-plus --k 12", "jps-plus needs a k from 2 to 3, found 12 (4096 neighbors)".to_owned()),
         (
             "--engine jps-plus --k any",
             "jps-plus needs a k from 2 to 3; for any choose anya, subgoal".to_owned(),
@@ -212,7 +212,7 @@ fn what_an_engine_does_not_take() {
     );
     check(
         "build builtin:cave --engine jps-plus --placement center --gap open -o x.idx",
-        "--gap: it is for placement corner; at centers there is corners",
+        "--gap: at centers it is for k = any; else there is corners in its place: never, one or always",
     );
 }
 

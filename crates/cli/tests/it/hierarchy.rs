@@ -248,7 +248,7 @@ fn options_that_an_engine_does_not_take_are_refused() {
         ),
         ("--engine hpa --corners one", format!("at centers hpa takes k = 2, or k = 3 with corners never, {small}")),
         ("--engine chpa --corners one", format!("at centers chpa takes k = 2, or k = 3 with corners never, {small}")),
-        ("--engine hpa --k 4", "hpa needs a k from 2 to 3, found 4".to_owned()),
+        ("--engine hpa --k 4", "hpa needs a k from 2 to 3, found 4 (16 neighbors)".to_owned()),
         ("--engine chpa --k any", "chpa needs a k from 2 to 3; for any choose anya, subgoal".to_owned()),
         (
             "--engine chpa --placement corner",

@@ -190,11 +190,11 @@ fn arguments_that_make_no_sense() {
     );
     check(
         "reach builtin:cave --from 2,5 --k any --placement center --corners one",
-        "--corners: at any angle paths bend at corners: there is gap",
+        "--corners: for k = any there is gap in its place: open or closed",
     );
     check(
         "reach builtin:cave --from 2,5 --placement center --gap open",
-        "--gap: it is for placement corner; at centers there is corners",
+        "--gap: at centers it is for k = any; else there is corners in its place: never, one or always",
     );
     let known = "expected a name that ends in .png, .svg, .csv, .npy, .asc or .tif (- prints CSV)";
     for name in ["near.gif", "near", ".png"] {

@@ -148,17 +148,20 @@ impl Call {
         let together = |meaning, why| Err(CallError::Together { parameter: Parameter::of(meaning), why });
         let rules = match (placement, self.corners, self.gap) {
             (PlacementKind::Center, Some(_), _) if k == K::Any => {
-                return together(Meaning::Corners, "at any angle paths bend at corners: there is gap");
+                return together(Meaning::Corners, "for k = any there is gap in its place: open or closed");
             }
             (PlacementKind::Center, None, gap) if k == K::Any => {
                 let known = usual.rules.gap().filter(|_| is_any_at_centers);
                 Rules::CenterGap(gap.or(known).unwrap_or(DiagonalGap::Closed))
             }
             (PlacementKind::Center, _, Some(_)) => {
-                return together(Meaning::Gap, "it is for placement corner; at centers there is corners");
+                return together(
+                    Meaning::Gap,
+                    "at centers it is for k = any; else there is corners in its place: never, one or always",
+                );
             }
             (PlacementKind::Corner, Some(_), _) => {
-                return together(Meaning::Corners, "it is for placement center; at corners there is gap");
+                return together(Meaning::Corners, "at corners there is gap in its place: open or closed");
             }
             (PlacementKind::Center, corners, None) => {
                 Rules::Center(corners.or(usual.rules.corners()).unwrap_or_default())

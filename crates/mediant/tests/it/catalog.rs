@@ -365,14 +365,16 @@ fn each_wrong_part_is_named() {
         wrong("jps-block:x").ends_with("K is a number from 2 to 3")
             && wrong("anya:x").ends_with("K is a number from 2 to 12, or any")
     );
-    assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4"));
+    assert!(wrong("jps-block:4").ends_with("jps-block needs a k from 2 to 3, found 4 (16 neighbors)"));
+    assert!(wrong("jps-block:63").ends_with("found 63 (9223372036854775808 neighbors)"));
+    assert!(wrong("jps-block:64").ends_with("found 64"));
     assert!(wrong("theta:any").ends_with("theta needs a k from 2 to 12; for any choose anya, subgoal"));
     assert!(wrong("subgoal:x").ends_with("K is a number from 2 to 12, or any"));
     assert!(
         wrong("subgoal-theta:any")
             .ends_with("subgoal-theta needs a k from 2 to 12; for any choose anya, subgoal")
     );
-    assert!(wrong("subgoal:13:open").ends_with("subgoal needs a k from 2 to 12, found 13"));
+    assert!(wrong("subgoal:13:open").ends_with("subgoal needs a k from 2 to 12, found 13 (8192 neighbors)"));
     assert!(
         wrong("astar,levels=2")
             .ends_with("astar takes no levels: leave it out, or choose subgoal, subgoal-theta, hpa")
@@ -384,7 +386,7 @@ fn each_wrong_part_is_named() {
         );
     }
 
-    assert!(wrong("anya:13").ends_with("anya needs a k from 2 to 12, found 13"));
+    assert!(wrong("anya:13").ends_with("anya needs a k from 2 to 12, found 13 (8192 neighbors)"));
     assert!(wrong("anya:4:one").contains("anya needs placement corner; for center choose astar, "));
     assert!(
         wrong("anya:any:one").contains("at any angle paths between centers bend at corners of obstacles")
@@ -403,7 +405,7 @@ fn each_wrong_part_is_named() {
     ));
     assert!(wrong("anya,zero").contains("anya takes no heuristic: leave it out, or choose astar, "));
     assert!(wrong("landmarks,landmarks=17").ends_with("17 landmarks: choose 1 to 16"));
-    assert!(wrong("landmarks:9").ends_with("landmarks needs a k from 2 to 8, found 9"));
+    assert!(wrong("landmarks:9").ends_with("landmarks needs a k from 2 to 8, found 9 (512 neighbors)"));
     assert_eq!("ALT:4:open".parse(), "landmarks:4:open".parse::<Setup>());
     assert!(wrong("jps,paper").ends_with("jps takes no variant: leave it out, or choose canonical, chpa"));
 }
