@@ -794,7 +794,8 @@ mediant_code mediant_path_vertices(const mediant_point *points,
                                    size_t room,
                                    size_t *total);
 
-// The cells that a path touches in a space: as many as there is room for, and how many there are.
+// The cells that a path touches in a space, with blocked ones beside it and ones outside the map: as many as
+// there is room for, and how many there are.
 //
 // Required:
 // As for `mediant_path_vertices`.

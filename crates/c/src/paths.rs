@@ -122,7 +122,8 @@ pub unsafe extern "C" fn mediant_path_vertices(
     })
 }
 
-/// The cells that a path touches in a space: as many as there is room for, and how many there are.
+/// The cells that a path touches in a space, with blocked ones beside it and ones outside the map: as many as
+/// there is room for, and how many there are.
 ///
 /// # Safety
 /// As for `mediant_path_vertices`.
