@@ -145,8 +145,8 @@ pub(crate) enum Failure {
     RosMap { path: PathBuf, source: RosError },
     #[error("--draw shows a single query: give --from and --to, or --limit 1")]
     DrawMany,
-    #[error("--draw on the screen does not go with --format jsonl: give it a FILE, or choose --format table")]
-    DrawJsonl,
+    #[error("--draw on the screen goes with --format table alone: give it a FILE, or choose that format")]
+    DrawAmongLines,
     #[error("--trace follows a single query: give --from and --to, or --limit 1")]
     TraceMany,
     #[error("--trace follows a single search: give --from and --to once")]

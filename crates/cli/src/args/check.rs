@@ -2,13 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 use super::{
     costs::{CostsArgs, WalkingArgs},
     flags::{Flags, MOTION},
     map::MapArgs,
-    run::Format,
 };
 
 #[derive(Args, Debug)]
@@ -30,7 +29,14 @@ pub(crate) struct CheckArgs {
     pub(crate) motion: Flags<MOTION>,
     /// Lines for people, or one JSON object a line for programs
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: Format,
+    pub(crate) format: CheckFormat,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CheckFormat {
+    #[default]
+    Table,
+    Jsonl,
 }
 
 const K_HELP: &str = "\

@@ -21,7 +21,7 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use self::{
     build::BuildArgs,
-    check::CheckArgs,
+    check::{CheckArgs, CheckFormat},
     convert::ConvertArgs,
     costs::{CostsArgs, InflationArgs, ReadingArgs, WalkingArgs},
     demo::DemoArgs,
@@ -33,7 +33,7 @@ pub(crate) use self::{
     reach::{Directions, ReachArgs},
     run::{Format, RunArgs},
     setup::Asked,
-    table::{TableArgs, TableFormat},
+    table::TableArgs,
     value::{Place, parse_pair, parse_place},
 };
 

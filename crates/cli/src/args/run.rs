@@ -72,7 +72,7 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "N", default_value = "1")]
     #[arg(allow_negative_numbers = true, value_parser = |text: &str| parse_count(text, &NonZeroU32::MAX))]
     pub(crate) repeat: NonZeroU32,
-    /// A table for people, or one JSON object a line for programs
+    /// A table for people, one JSON object a line for programs, or a line of numbers for each query (csv)
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
     /// Draw the map and the path of a single query: on the screen, or to a .png or .svg file, there also what
@@ -91,11 +91,13 @@ pub(crate) struct RunArgs {
     pub(crate) distances: Option<PathBuf>,
 }
 
+/// For people, and for two kinds of programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     #[default]
     Table,
     Jsonl,
+    Csv,
 }
 
 const RUN_HELP: &str = "\
@@ -136,6 +138,7 @@ Examples:
   mediant run builtin:archipelago
   mediant run arena.map --scen arena.map.scen --k 5 --placement corner --format jsonl
   mediant run arena.map --pairs pairs.csv --format jsonl
+  mediant run arena.map --scen arena.map.scen --format csv
   mediant run arena.map --edits timeline.jsonl --engine jps-block
   mediant run changing.scen
   mediant run arena.map --from 1,11 --to 40,30 --draw

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{
     costs::{CostsArgs, WalkingArgs},
     flags::{ENGINE, Flags, MOTION, OPTIONS},
     map::MapArgs,
+    run::Format,
     value::{Place, parse_place},
 };
 
@@ -47,15 +48,7 @@ pub(crate) struct TableArgs {
     pub(crate) index: Option<PathBuf>,
     /// A table for people, one JSON object a line, or CSV
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: TableFormat,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TableFormat {
-    #[default]
-    Table,
-    Jsonl,
-    Csv,
+    pub(crate) format: Format,
 }
 
 const TABLE_HELP: &str = "\

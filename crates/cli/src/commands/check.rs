@@ -7,7 +7,7 @@ use mediant_formats::{Ground, PlacedPatch};
 use serde::Serialize;
 
 use crate::{
-    args::{CheckArgs, Format},
+    args::{CheckArgs, CheckFormat},
     check::{
         fault::Fault,
         file::{Entry, Listed, RunSetup, Waypoints, read, shown},
@@ -208,15 +208,15 @@ pub(crate) fn check(args: &CheckArgs, screen: &mut Screen) -> Result<Ending, Fai
             paths += 1;
             broken += u64::from(fault.is_some());
             match (args.format, fault) {
-                (Format::Jsonl, fault) => line(screen, &path_line(file, path.index, fault, cost))?,
-                (Format::Table, Some(fault)) => say(screen, &map, (file, path.index), fault)?,
-                (Format::Table, None) => {}
+                (CheckFormat::Jsonl, fault) => line(screen, &path_line(file, path.index, fault, cost))?,
+                (CheckFormat::Table, Some(fault)) => say(screen, &map, (file, path.index), fault)?,
+                (CheckFormat::Table, None) => {}
             }
         }
     }
     match args.format {
-        Format::Jsonl => line(screen, &SummaryLine { map: &map.name, paths, broken })?,
-        Format::Table => summary(screen, &map, paths, broken)?,
+        CheckFormat::Jsonl => line(screen, &SummaryLine { map: &map.name, paths, broken })?,
+        CheckFormat::Table => summary(screen, &map, paths, broken)?,
     }
     Ok(if broken == 0 { Ending::Answered } else { Ending::BrokenPaths })
 }

@@ -11,6 +11,7 @@ use crate::{
     map::{NamedMap, file_name},
     run::{
         answer::RunHead,
+        csv::Csv,
         distances,
         jsonl::Jsonl,
         queries::Queries,
@@ -30,7 +31,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     let asked = args.asked()?;
     let reference = args.reference(asked.motion.rules)?;
     match &args.draw {
-        Some(None) if args.format == Format::Jsonl => return Err(Failure::DrawJsonl),
+        Some(None) if args.format != Format::Table => return Err(Failure::DrawAmongLines),
         Some(Some(file)) => check_name(file)?,
         _ => {}
     }
@@ -69,10 +70,11 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         preparation: searchers.preparation,
         memory_bytes: searchers.memory_bytes(),
     };
-    // Lines of JSON on the screen show progress themselves, and a bar would break them.
-    let lines_on_screen = args.format == Format::Jsonl && io::stdout().is_terminal();
+    // Lines on the screen show progress themselves, and a bar would break them.
+    let lines_on_screen = args.format != Format::Table && io::stdout().is_terminal();
     let mut report: Box<dyn Report> = match args.format {
         Format::Jsonl => Box::new(Jsonl::new(screen, lines_on_screen)),
+        Format::Csv => Box::new(Csv::new(screen)),
         Format::Table => Box::new(TableReport::new(screen)),
     };
     let session = Session {

@@ -13,7 +13,7 @@ use mediant::{
 use serde::Serialize;
 
 use crate::{
-    args::{Asked, Place, TableArgs, TableFormat, parse_place},
+    args::{Asked, Format, Place, TableArgs, parse_place},
     check::file::{bytes, lines, shown},
     failure::{Ending, Failure},
     map::NamedMap,
@@ -65,9 +65,9 @@ pub(crate) fn table(args: &TableArgs, screen: &mut Screen) -> Result<Ending, Fai
         took: begin.elapsed(),
     };
     match args.format {
-        TableFormat::Table => report.table(screen)?,
-        TableFormat::Jsonl => report.jsonl(screen)?,
-        TableFormat::Csv => report.csv(screen)?,
+        Format::Table => report.table(screen)?,
+        Format::Jsonl => report.jsonl(screen)?,
+        Format::Csv => report.csv(screen)?,
     }
     let (missing, all) = report.measured.missing();
     if args.require_path && missing > 0 {

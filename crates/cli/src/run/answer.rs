@@ -125,6 +125,17 @@ impl QueryRecord {
         }
     }
 
+    /// The outcome in a word, for scripts.
+    pub(crate) const fn status(&self) -> &'static str {
+        match &self.answer {
+            Ok(QueryAnswer::Found(_)) => "found",
+            Ok(QueryAnswer::Nearest(_)) => "nearest",
+            Ok(QueryAnswer::Unreachable) => "unreachable",
+            Ok(QueryAnswer::Stopped(_)) => "stopped",
+            Err(_) => "error",
+        }
+    }
+
     /// The path, if there is one: that of a stopped search is the best so far.
     pub(crate) const fn path(&self) -> Option<&Path> {
         match &self.answer {

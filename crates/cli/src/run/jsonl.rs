@@ -331,18 +331,6 @@ impl From<&EditRecord<'_>> for EditLine {
     }
 }
 
-/// The outcome of a query, in a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Status {
-    Found,
-    /// There is no path; the one here leads to the nearest vertex that can be reached.
-    Nearest,
-    Unreachable,
-    Stopped,
-    Error,
-}
-
 /// The line of a query and its answer.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename = "query")]
@@ -359,7 +347,9 @@ struct QueryLine<'a> {
     /// All goals that were asked for; only in a run with wishes.
     #[serde(skip_serializing_if = "Option::is_none")]
     goals: Option<&'a [Point]>,
-    status: Status,
+    /// "found", "nearest" (there is no path; this one leads to the nearest vertex that can be reached),
+    /// "unreachable", "stopped" or "error".
+    status: &'static str,
     /// The engine that answered; only where cells count otherwise for the query, and on an index of subgoals
     /// that followed an edit.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -435,13 +425,7 @@ impl<'a> From<&'a QueryRecord> for QueryLine<'a> {
             starts: has_wishes.then(|| query.starts()),
             goals: has_wishes.then(|| query.goals()),
             searched_by: searched_by.map(Engine::name),
-            status: match answer {
-                Ok(QueryAnswer::Found(_)) => Status::Found,
-                Ok(QueryAnswer::Nearest(_)) => Status::Nearest,
-                Ok(QueryAnswer::Unreachable) => Status::Unreachable,
-                Ok(QueryAnswer::Stopped(_)) => Status::Stopped,
-                Err(_) => Status::Error,
-            },
+            status: record.status(),
             stopped_by: stopped.map(|stopped| stopped.by.to_string()),
             cost: record.cost(),
             length: None,

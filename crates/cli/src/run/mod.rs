@@ -1,6 +1,7 @@
 //! The parts of `mediant run`: queries, answers, sums and reports.
 
 pub(crate) mod answer;
+pub(crate) mod csv;
 pub(crate) mod distances;
 pub(crate) mod jsonl;
 pub(crate) mod measure;

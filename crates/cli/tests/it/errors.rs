@@ -167,7 +167,7 @@ fn options_that_do_not_go_together() {
     check("run builtin:cave --draw", "--draw shows a single query: give --from and --to, or --limit 1");
     check(
         "run builtin:cave --limit 1 --draw --format jsonl",
-        "--draw on the screen does not go with --format jsonl: give it a FILE, or choose --format table",
+        "--draw on the screen goes with --format table alone: give it a FILE, or choose that format",
     );
 }
 

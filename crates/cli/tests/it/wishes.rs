@@ -313,7 +313,7 @@ fn the_examples_of_the_help_run() {
         "changing.scen",
         "version 2\nheight 2\nwidth 3\ncost 1 octile\npatch yard.patch\ncommands\nP 0 0 1 0\nQ 0 0 0 2 0 4\n",
     );
-    run_examples(&files, "run", 19);
+    run_examples(&files, "run", 20);
 }
 
 #[test]
