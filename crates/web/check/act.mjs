@@ -151,6 +151,9 @@ export const badge = (page, end) =>
     return [model[end][0] - shift, model[end][1] - shift];
   }, end);
 
+/** Unfolds the rules of motion. @param {Page} page */
+export const unfold = (page) => page.locator("#engine summary").click();
+
 /** Drops files. @param {Page} page @param {{ name: string, bytes: Uint8Array | string }[]} files */
 export async function drop(page, ...files) {
   const list = files.map(({ name, bytes }) => ({ name, bytes: Array.from(Buffer.from(bytes)) }));

@@ -60,9 +60,14 @@ export class Site {
 
   /** A window of its own, with nothing stored. @param {Look} [look] */
   async context(look = {}) {
-    // Storing the page for later takes time; a test that wants it says so.
-    const usual = { viewport: { width: 1440, height: 900 }, serviceWorkers: /** @type {const} */ ("block") };
-    const context = await this.browser.newContext({ ...usual, ...look });
+    // Storing the page for later takes time, and a page that moves by itself is no scene to begin with: a
+    // test that wants them says so.
+    const context = await this.browser.newContext({
+      viewport: { width: 1440, height: 900 },
+      serviceWorkers: "block",
+      reducedMotion: "reduce",
+      ...look,
+    });
     this.#contexts.push(context);
     context.on("page", (page) => this.#watch(page));
     return context;

@@ -4,10 +4,10 @@
 // version of a picture for ever.
 
 import assert from "node:assert/strict";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { serve } from "../serve.mjs";
-import { drag, emptyRows, generate, loadRows, setLanes } from "./act.mjs";
+import { drag, drop, emptyRows, generate, loadRows, setLanes } from "./act.mjs";
 import { settled as answered, launch } from "./browser.mjs";
 import { quantized } from "./colors.mjs";
 import { png } from "./pictures.mjs";
@@ -36,6 +36,7 @@ const race = (page, name) =>
 const at = (page, share) =>
   page.evaluate((share) => {
     const { player } = /** @type {any} */ (globalThis).mediant;
+    player.pause();
     player.pause();
     player.seek(Math.round(player.length * share));
   }, share);
@@ -67,6 +68,8 @@ const PICTURES = [
     run: async (page) => {
       await generate(page, "rooms", 128);
       await race(page, "A*, canonical, JPS, block JPS");
+      await settled(page);
+      await at(page, 1);
     },
   },
   {
@@ -74,6 +77,7 @@ const PICTURES = [
     run: async (page) => {
       await setLanes(page, { engine: "subgoal" });
       await generate(page, "cave", 512, 2);
+      await show(page, "search");
     },
   },
   {
@@ -131,6 +135,28 @@ const PICTURES = [
       }
     },
   },
+  {
+    name: "cut",
+    run: async (page) => {
+      await page.getByRole("button", { name: "Draw", exact: true }).click();
+      /** @type {[number, number][]} */
+      const wall = [
+        [33, 0],
+        [33, 35],
+      ];
+      await drag(page, wall, 40);
+    },
+  },
+  {
+    name: "scenario",
+    look: { colorScheme: "dark" },
+    run: async (page) => {
+      const name = "archipelago.map.scen";
+      await drop(page, { name, bytes: readFileSync(join(ROOT, "crates/cli/maps", name)) });
+      await page.getByRole("spinbutton", { name: "Query" }).fill("40");
+      await page.keyboard.press("Enter");
+    },
+  },
   { name: "phone", look: { viewport: { width: 380, height: 760 }, hasTouch: true }, run: async () => {} },
   {
     name: "phone-dark",
@@ -138,6 +164,9 @@ const PICTURES = [
     run: async (page) => {
       await page.getByRole("tab", { name: "Race" }).click();
       await race(page, "k = 2, 3, 4, ∞");
+      await settled(page);
+      await at(page, 0.6);
+      await page.evaluate(() => document.querySelector(".scroll")?.scrollTo(0, 0));
     },
   },
 ];
@@ -173,8 +202,12 @@ async function main() {
   const browser = await launch();
   let total = 0;
   for (const { name, look, run } of PICTURES) {
-    const usual = { viewport: { width: 1200, height: 780 }, colorScheme: /** @type {const} */ ("light") };
-    const context = await browser.newContext({ ...usual, ...look });
+    const context = await browser.newContext({
+      viewport: { width: 1200, height: 780 },
+      colorScheme: "light",
+      reducedMotion: "reduce",
+      ...look,
+    });
     const page = await context.newPage();
     await page.goto(address);
     await settled(page);

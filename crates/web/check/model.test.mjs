@@ -111,7 +111,7 @@ test("a change event has the smallest rectangle, and what is so already is no ch
   assert.ok(model.version > version);
   model.paint([23, 41], true);
   model.moveEnd("start", [0, 0]);
-  model.set({ overlay: "search", active: 0 });
+  model.set({ overlay: "none", active: 0 });
   model.setLane(0, { k: model.lanes[0].k });
   assert.deepEqual(read(), []);
   assert.equal(model.edited, true);
@@ -211,7 +211,7 @@ test("lanes: 1 to 4, known fields; numbers are brought into their bounds", () =>
   assert.throws(() => model.setLanes([]), RangeError);
   model.set({ active: 9, radius: -1, agents: 1e9, overlay: "nothing", nearest: 1 });
   const { active, radius, agents, overlay, nearest } = model;
-  assert.deepEqual([active, radius, agents, overlay, nearest], [0, 0, 400, "search", false]);
+  assert.deepEqual([active, radius, agents, overlay, nearest], [0, 0, 400, "none", false]);
 });
 
 test("undo keeps within its memory and forgets the oldest steps first", () => {

@@ -108,7 +108,23 @@ export interface Model extends EventTarget {
   setLanes(lanes: LaneSetup[]): void;
   addLane(): void;
   removeLane(index: number): void;
+  /** Joins all changes that the work makes into one event. */
+  batch(work: () => void): void;
   set(change: Partial<Pick<Model, "active" | "overlay" | "nearest" | "radius" | "agents">>): void;
+}
+
+/** The queries of a scenario. */
+export interface Queries {
+  name: string;
+  /** The name of the map that they are for. */
+  map: string;
+  /** Whether the map of the page is as large as theirs. */
+  fits: boolean;
+  /** x, y, … */
+  starts: Int32Array;
+  goals: Int32Array;
+  /** Lengths of shortest paths for k = 3 between centers that cut no corners; NaN where none is published. */
+  lengths: Float64Array;
 }
 
 /** The answer of a lane's engine. */
@@ -143,6 +159,12 @@ export interface LaneAnswer {
   reference: { length: number; path: Waypoints; what: "any" | "k" } | null;
   /** The error of an invalid query, as a sentence, with its code. */
   error: { code: string; message: string } | null;
+}
+
+/** The best path of a k. Without land its cost is its length. */
+export interface Rung {
+  cost: number;
+  length: number;
 }
 
 export interface LaneState {
@@ -188,6 +210,8 @@ export interface Lanes extends EventTarget {
   retry(index: number): void;
   /** The map in these files (a ROS map is two files). Rejects with an `Error` whose message is a sentence. */
   readMap(files: File[]): Promise<{ name: string; width: number; height: number; cells: Uint8Array }>;
+  /** The queries of a scenario. Rejects as `readMap`. */
+  readScenario(file: File): Promise<Queries>;
   /** The lane's search for the Posthoc visualizer. */
   trace(index: number): Promise<Blob>;
   picture(index: number, format: "png" | "svg"): Promise<Blob>;
@@ -202,14 +226,24 @@ export interface Lanes extends EventTarget {
     flow: Float32Array | null;
     greatest: number;
   } | null;
-  /** The cheapest path between the ends for each k, with the active lane's rules, as far as they are known.
-   *  Empty unless steps cost differently. */
-  readonly ladder: ReadonlyMap<number, { cost: number; length: number }>;
+  /** The best path between the ends for each k, with the active lane's rules, as far as they are known. Where
+   *  steps cost differently there is none beyond k = 8. */
+  readonly ladder: ReadonlyMap<number | "any", Rung>;
+  /** Whether no more of them will come for the scene of now. */
+  readonly isLadderWhole: boolean;
+  /** Where the active lane has no path: the vertices that its start reaches, 1, and those that its goal
+   *  reaches, 2. */
+  readonly parts: {
+    width: number;
+    height: number;
+    placement: "center" | "corner";
+    values: Uint8Array;
+  } | null;
   /** The cells where the agent does not fit: 1 = too narrow, walls included; null for a point. */
   readonly tooNarrow: Uint8Array | null;
 }
 
-/** stage/player.js: how much of each search is shown. Dispatches `change`. */
+/** stage/player.js: how much of each search is shown. Dispatches `change`, and `use` when somebody plays. */
 export interface Player extends EventTarget {
   /** Same pace: so many expansions of each lane. Real time: what each lane had done after so many ms,
    *  slowed down. */
@@ -220,6 +254,8 @@ export interface Player extends EventTarget {
   /** From 0 to `length`: expansions, or milliseconds. */
   readonly position: number;
   readonly length: number;
+  /** Plays from the beginning, when all lanes have ended. */
+  start(): void;
   play(): void;
   pause(): void;
   toggle(): void;
@@ -242,6 +278,10 @@ export interface Stage extends EventTarget {
   brush: number;
   /** The CSS pixels in the window of a point of the map, which is in cells. */
   place(lane: number, x: number, y: number): { x: number; y: number };
+  /** Whether a path turns slowly into another one, while the page moves by itself. */
+  glides: boolean;
+  /** Whether the ends are called to be dragged. */
+  calls: boolean;
   fit(): void;
   zoom(factor: number): void;
   /** Milliseconds of the page's work in each frame of the last drag. */

@@ -128,9 +128,60 @@ test("each pane draws the path of its lane, and the optimum where that is shorte
   assert.ok((await share(page, straight, "lane-1", 1)) > 0.4, "dashed");
   assert.ok((await share(page, steps, "lane-1", 1)) < 0.1);
   assert.ok((await share(page, straight, "lane-0", 0)) < 0.2);
-  assert.ok((await share(page, straight, "reference", 0)) > 0.1, "the optimum is dotted below");
-  assert.equal(await share(page, straight, "reference", 1), 0, "an optimal path has none");
+  assert.ok((await share(page, straight, "reference", 0)) > 0.9, "the optimum is a line above the path");
+  // Badges of ends have the same color.
+  const inner = straight.slice(40, -40);
+  assert.equal(await share(page, inner, "reference", 1), 0, "an optimal path has none");
 });
+
+for (const colorScheme of /** @type {const} */ (["light", "dark"])) {
+  test(`${colorScheme}: at every k the optimum is seen, over walls and what lies over the map`, async () => {
+    const page = await site.open({ colorScheme });
+    await setLanes(page, { k: 2, placement: "corner" });
+    for (const [what, k, overlay] of /** @type {const} */ ([
+      ["nothing", 2, "none"],
+      ["nothing", 3, "none"],
+      ["nothing", 5, "none"],
+      ["the search", 4, "search"],
+      ["distances", 3, "distances"],
+      ["clearance", 6, "clearance"],
+    ])) {
+      await page.evaluate((k) => /** @type {any} */ (globalThis).mediant.model.setLane(0, { k }), k);
+      await show(page, overlay);
+      await settled(page);
+      await page.waitForFunction(
+        () => /** @type {any} */ (globalThis).mediant.lanes.list[0].answer.reference,
+      );
+      const [{ answer }] = await lanes(page);
+      // Not below the badges of the ends.
+      const line = along(Array.from(Object.values(answer.reference.path)), 0, 40).slice(20, -20);
+      const seen = await share(page, line, "reference");
+      assert.ok(seen > 0.95, `k = ${k}, ${what}: ${seen} of the line`);
+    }
+    // Between the path and the optimum there is a shade of the lane's color.
+    await show(page, "none");
+    await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.setLane(0, { k: 2 }));
+    await loadRows(page, emptyRows(WIDTH, HEIGHT), [1, 1], [10, 6]);
+    await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.list[0].answer.reference);
+    const { path } = (await lanes(page))[0].answer;
+    const side = path.some(
+      (/** @type {number} */ x, /** @type {number} */ i) => i % 2 === 0 && x > 4 && path[i + 1] < 2,
+    );
+    const [between, outside] = await colorsAt(
+      page,
+      side
+        ? [
+            [8.5, 3.5],
+            [2.5, 5.5],
+          ]
+        : [
+            [2.5, 3.5],
+            [8.5, 1.5],
+          ],
+    );
+    assert.ok(!isColor(between, outside), `${between} and ${outside}`);
+  });
+}
 
 test("from the nearest vertex a dotted line leads to the goal that cannot be reached", async () => {
   const page = await open({ engine: "astar" });
@@ -144,6 +195,62 @@ test("from the nearest vertex a dotted line leads to the goal that cannot be rea
   await call(page, "paint", wall.slice(0, 1), false);
   await settled(page);
   assert.equal(await share(page, line, "danger"), 0);
+});
+
+/** The parts of the map that the page shows, once they are those of the first lane. @param {Page} page
+ *  @param {string} placement */
+async function partsOf(page, placement) {
+  await page.waitForFunction((placement) => {
+    const { parts, list } = /** @type {any} */ (globalThis).mediant.lanes;
+    return parts?.placement === placement && !list[0].stale;
+  }, placement);
+  return page.evaluate(() => {
+    const { width, values } = /** @type {any} */ (globalThis).mediant.lanes.parts;
+    return { width, values: /** @type {number[]} */ (Array.from(values)) };
+  });
+}
+
+test("without a path, what the start reaches is shaded, and what the goal reaches is striped", async () => {
+  const page = await open({ engine: "astar" });
+  const mediant = await load();
+  // Two walls that touch at a corner: closed for a path, but at corners with open gaps.
+  const at = Array.from({ length: HEIGHT }, (_, y) => (y < 4 ? 6 : 5));
+  const wall = at.map((x, y) => y * WIDTH + x);
+  const rows = at.map((x) => `${".".repeat(x)}#${".".repeat(WIDTH - x - 1)}`);
+  await call(page, "paint", wall, true);
+  for (const change of [
+    { k: 3 },
+    { k: 5, corners: "one" },
+    { k: 2 },
+    { placement: "corner", gap: "closed" },
+  ]) {
+    await setLanes(page, change);
+    await settled(page);
+    const setup = { k: 3, placement: "center", corners: "never", gap: "open", ...change };
+    const space = spaceOf(mediant, rows, setup);
+    const { width, values } = await partsOf(page, setup.placement);
+    assert.equal(width, WIDTH + (setup.placement === "corner" ? 1 : 0));
+    const reaches = (/** @type {number[]} */ end, /** @type {number[]} */ vertex) =>
+      space.isFree(vertex) && space.connected(end, vertex);
+    values.forEach((value, v) => {
+      const vertex = [v % width, Math.floor(v / width)];
+      const truth = reaches([1, 4], vertex) ? 1 : reaches([10, 4], vertex) ? 2 : 0;
+      assert.equal(value, truth, `${JSON.stringify(change)}: vertex ${vertex}`);
+    });
+    const row = [2.3, 9.3, 10.3, 11.3].map((x) => /** @type {Point} */ ([x, 1.3]));
+    const [left, ...right] = await colorsAt(page, row);
+    assert.ok(isColor(left, await token(page, "part-start")), `${left}`);
+    const [goal, stripe] = [await token(page, "part-goal"), await token(page, "part-stripe")];
+    assert.ok(right.every((color) => isColor(color, goal) || isColor(color, stripe)));
+    assert.ok(right.some((color) => isColor(color, stripe)));
+    const legend = (await page.locator(".stage-legend").textContent()) ?? "";
+    assert.match(legend, /start reaches this.*goal is in this/s);
+    assert.match((await page.locator("#worth").textContent()) ?? "", /walls part the start, shaded/);
+  }
+  await call(page, "paint", [wall[2]], false);
+  await settled(page);
+  await page.waitForFunction(() => !(/** @type {any} */ (globalThis).mediant.lanes.parts));
+  assert.equal(await share(page, [[2.3, 1.3]], "free"), 1);
 });
 
 test("as much of the search is drawn as the player shows, and the path at its end", async () => {

@@ -3,7 +3,18 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { gunzipSync } from "node:zlib";
-import { emptyRows, generate, isSentence, lanes, loadRows, message, rows, scene, setLanes } from "../act.mjs";
+import {
+  emptyRows,
+  generate,
+  isSentence,
+  lanes,
+  loadRows,
+  message,
+  rows,
+  scene,
+  setLanes,
+  unfold,
+} from "../act.mjs";
 import { picture, Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
@@ -12,7 +23,7 @@ const site = new Site();
 
 /** All text that is said of the lanes. @param {Page} page */
 const said = async (page) =>
-  (await page.locator(".race-status:visible, .stage-note:visible").allTextContents()).map((text) =>
+  (await page.locator(".race-status:visible, .worth.error:visible").allTextContents()).map((text) =>
     text.trim(),
   );
 
@@ -135,6 +146,7 @@ test("ends in walls, and goals that cannot be reached, with and without the near
   assert.ok(texts.length >= 2 && texts.every(isSentence), texts.join(" | "));
   await picture(page, "unreachable");
 
+  await unfold(page);
   await page.getByRole("checkbox", { name: /^Nearest/ }).check();
   await settled(page);
   for (const { answer } of await lanes(page)) {

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { lanes, rows, scene, setLanes } from "../act.mjs";
+import { lanes, rows, scene, setLanes, unfold } from "../act.mjs";
 import { picture, Site, settled } from "../browser.mjs";
 import { lengthOf, load } from "../truth.mjs";
 
@@ -38,7 +38,75 @@ test("the slider goes through all k to ∞, and paths get shorter as k grows", a
     assert.ok(answer.length <= last + 1e-9, `k = ${k}: ${answer.length} is longer than ${last}`);
     last = answer.length;
     if ([2, 3, 5].includes(at) || at === to) await picture(page, `k-${k}`);
-    await page.keyboard.press("ArrowRight");
+    // Without Shift it would go to the next k that changes the path.
+    await page.keyboard.press("Shift+ArrowRight");
+  }
+});
+
+/** Waits until the best path of each k is known. @param {import("playwright-core").Page} page */
+const known = (page) =>
+  page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.lanes.isLadderWhole);
+
+test("k that give the same path are one step of the keys and the bars, and each can be chosen", async () => {
+  const page = await site.open();
+  await known(page);
+  const k = async () => (await scene(page)).lanes[0].k;
+  const slider = page.getByRole("slider", { name: /^k,/ });
+  await slider.focus();
+  const seen = [];
+  for (const [key, presses] of /** @type {const} */ ([
+    ["ArrowRight", 6],
+    ["ArrowLeft", 6],
+    ["]", 5],
+    ["[", 1],
+  ])) {
+    for (let press = 0; press < presses; press += 1) {
+      await page.keyboard.press(key);
+      seen.push(await k());
+    }
+  }
+  // On this map k = 7 to 12 differ by less than a hundredth of a cell.
+  const up = [4, 5, 6, 7, "any", "any"];
+  assert.deepEqual(seen, [...up, 7, 6, 5, 4, 3, 2, 3, 4, 5, 6, 7, 6]);
+  const same = page.locator("#k-same");
+  assert.equal(await same.textContent(), "The same path: k = 7 to 12");
+  // The bars of a step are one; a tick is its k alone.
+  const bars = await page.locator("#k-bars").boundingBox();
+  if (!bars) throw new Error("no bars");
+  await page.mouse.click(bars.x + (8.5 / 12) * bars.width, bars.y + bars.height / 2);
+  assert.equal(await k(), 7);
+  for (const exact of [10, 12]) {
+    await page.locator(`#k-ticks [data-place="${exact}"]`).click();
+    assert.equal(await k(), exact);
+  }
+  await slider.focus();
+  await page.keyboard.press("Shift+ArrowLeft");
+  assert.equal(await k(), 11);
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await k(), "any");
+});
+
+test("the knob skips nothing that an engine may change, or that is not known", async () => {
+  const page = await site.open();
+  const mediant = await load();
+  for (const setup of [{ engine: "theta" }, { engine: "astar", smooth: "taut" }]) {
+    await setLanes(page, { placement: "corner", k: 7, ...setup });
+    await settled(page);
+    await known(page);
+    await page.keyboard.press("]");
+    assert.equal((await scene(page)).lanes[0].k, 8, JSON.stringify(setup));
+  }
+  // What is known is what the package finds, at centers, too.
+  await setLanes(page, { placement: "center", k: 7 });
+  await settled(page);
+  await known(page);
+  const [map, { start, goal, lanes: setups }] = [await rows(page), await scene(page)];
+  const found = await page.evaluate(() => [.../** @type {any} */ (globalThis).mediant.lanes.ladder]);
+  assert.equal(found.length, 12);
+  for (const [k, { length }] of found) {
+    const engine = k === "any" ? "anya" : "astar";
+    const truth = lengthOf(mediant, map, { ...setups[0], engine, k }, start, goal);
+    assert.ok(Math.abs(length - truth) < 1e-9, `k = ${k}: ${length}, not ${truth}`);
   }
 });
 
@@ -63,19 +131,19 @@ test("an engine that made way for ∞ is back when k is finite; what k is worth 
   await slider.focus();
   await page.keyboard.press("End");
   assert.equal((await scene(page)).lanes[0].engine, "anya");
-  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("Shift+ArrowLeft");
   for (let k = 12; k >= 2; k -= 1) {
     const bound = mediant.bound({ k, placement: "corner", gap: "closed" });
     const percent = ((bound - 1) * 100).toFixed(2);
     await page.waitForFunction(
       (text) => document.querySelector("#worth")?.textContent?.startsWith(text),
-      `N(${k}): at most ${Number(percent) === 0 ? "" : percent}`,
+      `On any map, with k = ${k}: at most ${Number(percent) === 0 ? "" : percent}`,
     );
     if (k <= 3) {
       const { engine, gap } = (await scene(page)).lanes[0];
       assert.deepEqual([engine, gap], ["jps-block", "closed"]);
     }
-    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("Shift+ArrowLeft");
   }
 });
 
@@ -109,6 +177,7 @@ test("every engine answers, with what the package finds", async () => {
 test("rules of motion change the answer, and what does not go together says why", async () => {
   const page = await site.open();
   await setLanes(page, { engine: "astar" });
+  await unfold(page);
   for (const rule of ["always", "one", "never"]) {
     await page.getByRole("group", { name: "Corner cutting" }).getByText(rule, { exact: true }).click();
     await settled(page);

@@ -140,7 +140,7 @@ test("beyond k = 8, and for engines without costs, the page says so, and goes on
     }, k);
     const why = await failure(page, k === 9 ? /k = 9/ : /k = any/);
     assert.match(why, /On costs of cells .*from 2 to 8/);
-    assert.match((await page.locator(".stage-note").textContent()) ?? "", /from 2 to 8/);
+    assert.match((await page.locator("#worth").textContent()) ?? "", /from 2 to 8/);
   }
   await picture(page, "land-beyond");
   await page.getByRole("slider", { name: /^k,/ }).focus();

@@ -17,6 +17,8 @@ async function open() {
   await presets.selectOption({ label: options.find((text) => text.includes("canonical")) ?? options[1] });
   await settled(page);
   assert.equal((await scene(page)).lanes.length, 4);
+  // It plays by itself.
+  await press(page, /^Pause/);
   return page;
 }
 
@@ -35,6 +37,33 @@ const player = (page) =>
 /** @param {Page} page @param {string | RegExp} name */
 const press = (page, name) =>
   page.getByRole("group", { name: "Playback" }).getByRole("button", { name }).click();
+
+test("a race that is chosen starts from the beginning, when all lanes have answered", async () => {
+  const page = await site.open();
+  const log = await page.evaluate(async () => {
+    const { player, lanes } = /** @type {any} */ (globalThis).mediant;
+    /** @type {{ position: number, playing: boolean, ended: boolean }[]} */
+    const seen = [];
+    player.addEventListener("change", () => {
+      const ended = lanes.list.every((/** @type {any} */ { phase, stale }) => phase === "done" && !stale);
+      seen.push({ position: player.position, playing: player.playing, ended });
+    });
+    const presets = /** @type {HTMLSelectElement} */ (document.querySelector("#race select"));
+    presets.selectedIndex = 1;
+    presets.dispatchEvent(new Event("change"));
+    while (player.position < player.length / 3 || !player.playing) await new Promise(requestAnimationFrame);
+    return seen;
+  });
+  const first = log.findIndex(({ playing }) => playing);
+  assert.ok(
+    first >= 0 && log.slice(0, first).every(({ position }) => position === 0),
+    "nothing is shown before",
+  );
+  assert.ok(log.slice(first).every(({ ended }) => ended));
+  assert.ok(log[first].position < 30, `${log[first].position}`);
+  await page.waitForFunction(() => !(/** @type {any} */ (globalThis).mediant.player.playing));
+  assert.ok((await player(page)).each.every(({ arrived }) => arrived));
+});
 
 test("four lanes side by side, with one row each", async () => {
   const page = await open();

@@ -71,6 +71,22 @@ test("a link opens the same scene with the same lengths in another browser", asy
   assert.equal(await linkOf(other), link);
 });
 
+test("a link keeps what lies over the map, also one of before, which left the search out", async () => {
+  const page = await site.open(READS);
+  const blank = await linkOf(page);
+  assert.match(blank, /~onone~/);
+  await page.getByRole("combobox", { name: "Show", exact: true }).selectOption("search");
+  const searched = await linkOf(page);
+  assert.doesNotMatch(searched, /~o/);
+  for (const [link, overlay] of [
+    [blank, "none"],
+    [searched, "search"],
+  ]) {
+    const other = await site.open({ hash: link.slice(site.address.length) });
+    assert.equal((await scene(other)).overlay, overlay);
+  }
+});
+
 test("the address holds what was shared, and another link in the same window opens its scene", async () => {
   const page = await site.open(READS);
   await change(page);

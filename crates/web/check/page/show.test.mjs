@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { drag, emptyRows, loadRows, place, rows, scene, setLanes } from "../act.mjs";
+import { drag, emptyRows, loadRows, place, rows, scene, setLanes, unfold } from "../act.mjs";
 import { picture, Site, settled } from "../browser.mjs";
 import { load, spaceOf } from "../truth.mjs";
 
@@ -52,8 +52,42 @@ test("each overlay shows something else", async () => {
   assert.equal(seen.size, 2 * overlays.length);
 });
 
+/** @param {Page} page */
+const overlay = async (page) => (await scene(page)).overlay;
+
+test("the search is shown when it is played, in a race, or under Show, and not before", async () => {
+  const play = (/** @type {Page} */ page) =>
+    page.getByRole("group", { name: "Playback" }).getByRole("button", { name: /^Play/ }).click();
+  const [blank, ...acts] = /** @type {((page: Page) => Promise<unknown>)[]} */ ([
+    async () => {},
+    play,
+    (page) => page.keyboard.press(","),
+    (page) => page.getByRole("button", { name: "Add a lane" }).click(),
+    (page) => page.getByRole("combobox", { name: "Set up a race" }).selectOption({ index: 2 }),
+    (page) => page.getByRole("combobox", { name: "Show", exact: true }).selectOption("search"),
+  ]);
+  const before = await site.open();
+  await blank(before);
+  const first = await colors(before);
+  assert.equal(await overlay(before), "none");
+  for (const act of acts) {
+    const page = await site.open();
+    await act(page);
+    await settled(page);
+    assert.equal(await overlay(page), "search", String(act));
+    await page.waitForTimeout(300);
+    assert.notEqual(await colors(page), first);
+    await page.close();
+  }
+  // What somebody chose stays.
+  await before.getByRole("combobox", { name: "Show", exact: true }).selectOption("clearance");
+  await play(before);
+  assert.equal(await overlay(before), "clearance");
+});
+
 test("a disc as the agent: what is too narrow is shown", async () => {
   const page = await site.open();
+  await unfold(page);
   const radius = page.getByRole("slider", { name: "Agent radius" });
   await radius.focus();
   for (let step = 0; step < 4; step += 1) await page.keyboard.press("ArrowRight");
@@ -140,6 +174,42 @@ test("agents walk to the goal; who is not affected by a new wall keeps its way",
   }
   assert.ok(arrived.size >= 12, `${arrived.size} of 30 arrived`);
   await page.getByRole("button", { name: /^(Stop|Walk)$/ }).click();
+});
+
+/** The number of pixels of agents on the upper canvas. @param {Page} page @returns {Promise<number>} */
+const pixelsOfAgents = (page) =>
+  page.evaluate(async () => {
+    await new Promise(requestAnimationFrame);
+    const { stage } = /** @type {any} */ (globalThis).mediant;
+    const canvas = stage.panes[0].root.querySelector(".is-top");
+    const { width, height } = canvas;
+    const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+    if (!copy) throw new Error("no canvas");
+    copy.drawImage(canvas, 0, 0);
+    const { data } = copy.getImageData(0, 0, width, height);
+    const css = getComputedStyle(document.documentElement).getPropertyValue("--agent").trim();
+    const color = [1, 3, 5].map((at) => Number.parseInt(css.slice(at, at + 2), 16));
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const isSame = color.every((part, c) => Math.abs(data[i + c] - part) < 9);
+      if (isSame && data[i + 3] > 250) count += 1;
+    }
+    return count;
+  });
+
+test("agents are seen at every zoom: of a least size", async () => {
+  const page = await site.open();
+  for (const scale of [20, 3, 1]) {
+    const [width, height] = [Math.round(900 / scale), Math.round(400 / scale)];
+    const middle = Math.round(height / 2);
+    await loadRows(page, emptyRows(width, height), [1, middle], [width - 2, middle]);
+    await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.set({ agents: 3 }));
+    await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant.walkers.counts.walking === 3);
+    const own = await pixelsOfAgents(page);
+    // Three discs of radius 6.5 have 398 pixels, but for those that hide one another.
+    assert.ok(own > 220, `${own} pixels of agents at ${scale} pixels a cell`);
+    await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.set({ agents: 0 }));
+  }
 });
 
 test("zoom and pan: the map stays under the pointer", async () => {

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { emptyRows, lanes, loadRows, messages, scene, setLanes } from "../act.mjs";
-import { Site, settled } from "../browser.mjs";
+import { picture, Site, settled } from "../browser.mjs";
 
 /** @typedef {import("playwright-core").Page} Page */
 
@@ -55,6 +55,8 @@ test("hub labels expand nothing, and the page says so", async () => {
   assert.ok(Math.abs(labels.answer.length - searched.answer.length) < 1e-9);
   assert.equal(await cell(page, 0, "Expansions").textContent(), "no search");
   // The path over N(3) is not the shortest at any angle.
+  await page.evaluate(() => /** @type {any} */ (globalThis).mediant.model.set({ overlay: "search" }));
+  await page.waitForTimeout(100);
   const legend = await page.locator(".stage-legend").first().textContent();
   assert.equal(legend, "shortest at any angleno search: hub labels");
   // It wins no race of expansions; it arrives at once, and in real time when its time is over.
@@ -79,8 +81,69 @@ test("a caption is read out in parts", async () => {
   await loadRows(page, emptyRows(12, 12), [0, 0], [9, 4]);
   await setLanes(page, {});
   await settled(page);
-  await page.getByRole("button", { name: "A*, k = 3, 10.66", exact: true }).waitFor();
+  await page.getByRole("button", { name: "A*, k = 3", exact: true }).waitFor();
 });
+
+/** All text that eyes see. @param {Page} page */
+const seen = (page) =>
+  page.evaluate(() => {
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const found = [];
+    while (texts.nextNode()) {
+      const { parentElement: parent, textContent } = texts.currentNode;
+      const isSeen = parent?.checkVisibility() && !parent.closest("option, .sr-only, .stage-help, .skip");
+      if (isSeen) found.push(textContent);
+    }
+    return found.join(" ");
+  });
+
+test("the length is said once: beside the knob, and in a race in its table", async () => {
+  const page = await site.open();
+  await loadRows(page, emptyRows(12, 12), [0, 0], [9, 4]);
+  await setLanes(page, {});
+  await settled(page);
+  const said = async () => (await seen(page)).split("10.66").length - 1;
+  await page.locator("#readout").getByText("10.66").waitFor();
+  assert.equal(await said(), 1);
+  for (const column of ["Length", "Excess", "Certificate"]) assert.ok(await cell(page, 0, column).isHidden());
+  await page.getByRole("button", { name: "Add a lane" }).click();
+  await settled(page);
+  await page.waitForTimeout(100);
+  assert.equal(await said(), 3, "beside the knob, and of each lane");
+  for (const column of ["Length", "Excess", "Certificate"])
+    assert.ok(await cell(page, 0, column).isVisible());
+});
+
+test("words are explained where they stand, with a picture, and not before they are needed", async () => {
+  for (const viewport of [
+    { width: 1440, height: 900 },
+    { width: 380, height: 760 },
+  ]) {
+    const page = await site.open({ viewport });
+    await page.waitForTimeout(200);
+    assert.doesNotMatch(await seen(page), /excess|certificate|gaps/i);
+    if (viewport.width < 700) await page.getByRole("tab", { name: "Race" }).click();
+    await page.getByRole("button", { name: "Add a lane" }).click();
+    for (const word of ["excess", "certificate", "expansion"]) await opens(page, word, viewport);
+    if (viewport.width < 700) await page.getByRole("tab", { name: "Engine" }).click();
+    await page.getByText("Rules of motion").click();
+    for (const word of ["vertices", "gap", "smoothing"]) await opens(page, word, viewport);
+  }
+});
+
+/** @param {Page} page @param {string} word @param {{ width: number, height: number }} viewport */
+async function opens(page, word, { width, height }) {
+  await page.getByRole("button", { name: `What is meant by ${word}?` }).click();
+  const note = page.getByRole("note").filter({ hasText: word });
+  await note.waitFor();
+  assert.ok(await note.locator("svg").first().isVisible(), word);
+  const box = await note.boundingBox();
+  assert.ok(box && box.x >= 0 && box.y >= 0, `${word}: ${JSON.stringify(box)}`);
+  assert.ok(box.x + box.width <= width && box.y + box.height <= height, `${word}: ${JSON.stringify(box)}`);
+  await picture(page, `note-${word}-${width}`);
+  await page.keyboard.press("Escape");
+  await note.waitFor({ state: "hidden" });
+}
 
 test("where the agent does not fit, the sentence says so", async () => {
   const page = await site.open();
@@ -118,15 +181,15 @@ for (const [width, height] of /** @type {const} */ ([
       const panes = [...document.querySelectorAll(".stage-pane")];
       const pane = panes.find((pane) => pane.querySelector(".stage-optimum"));
       const part = (/** @type {string} */ name) => box(pane?.querySelector(name) ?? null);
-      const [length, legend] = [part(".stage-length"), part(".stage-legend")];
+      const [k, legend] = [part(".stage-k"), part(".stage-legend")];
       const scroll = document.querySelector(".race-scroll");
       const hidden = scroll ? scroll.scrollWidth - scroll.clientWidth : 0;
-      const covered = length && legend?.width && legend.top < length.bottom ? length.right - legend.left : 0;
+      const covered = k && legend?.width && legend.top < k.bottom ? k.right - legend.left : 0;
       return { names, hidden, covered };
     });
     // "Anya" takes 34 pixels.
     for (const name of found.names) assert.ok(name > 30, `${found.names}`);
-    assert.ok(found.covered <= 0, `the legend covers ${found.covered} pixels of the length`);
+    assert.ok(found.covered <= 0, `the legend covers ${found.covered} pixels of k`);
     assert.ok(found.hidden <= 0, `${found.hidden} pixels of the table are hidden`);
   });
 }

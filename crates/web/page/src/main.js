@@ -16,14 +16,16 @@ import { MapsMenu } from "./panels/maps-menu.js";
 import { startMenus } from "./panels/menu.js";
 import { say, sentence } from "./panels/message.js";
 import { PlaybackBar } from "./panels/playback.js";
-import { FIRST_SIGHT } from "./panels/presets.js";
 import { RacePanel } from "./panels/race.js";
+import { ScenarioBar } from "./panels/scenario.js";
 import { openScene } from "./panels/scenes.js";
 import { Setups } from "./panels/setups.js";
-import { AgentsPanel, ShowPanel } from "./panels/show.js";
+import { AgentsPanel, ShowPanel, showSearch } from "./panels/show.js";
+import { addStyles } from "./panels/styles.js";
 import { startTabs } from "./panels/tabs.js";
 import { startTheme } from "./panels/theme.js";
 import { ToolBar } from "./panels/tools.js";
+import { firstLane, isFirstVisit, mayMove, startTour } from "./panels/tour.js";
 import { warm } from "./search/lane.js";
 import { Lanes } from "./search/lanes.js";
 import { Walkers } from "./search/walkers.js";
@@ -48,10 +50,10 @@ async function loadLink(model) {
   }
 }
 
-/** The scene of the link, or else the one of the first sight. @param {Model} model */
-async function firstScene(model) {
+/** The scene of the link, or else the one of the first sight. @param {Model} model @param {boolean} moves */
+async function firstScene(model, moves) {
   if (await loadLink(model)) return;
-  model.setLanes([{ ...FIRST_SIGHT }]);
+  model.setLanes([firstLane(moves)]);
   try {
     model.load(await loadMap({ kind: "bundled", name: "archipelago" }));
   } catch (error) {
@@ -85,12 +87,13 @@ function keepOffline() {
   navigator.serviceWorker.register("./offline.js", { updateViaCache: "none" }).catch(() => {});
 }
 
-/** @param {Model} model @param {() => void} help */
-function startParts(model, help) {
+/** @param {Model} model @param {() => void} help @param {{ isFirst: boolean, moves: boolean }} visit */
+function startParts(model, help, { isFirst, moves }) {
   const lanes = new Lanes(model);
   // The files for use without a network are fetched late: they do not delay the first path.
   const late = new Promise((done) => setTimeout(done, OFFLINE_AFTER));
-  Promise.race([firstPath(lanes), late]).then(keepOffline);
+  const painted = firstPath(lanes);
+  Promise.race([painted, late]).then(keepOffline);
   const player = new Player(lanes);
   const walkers = new Walkers(model, lanes);
   const stage = new Stage(part("stage", HTMLElement), model, lanes, player, walkers);
@@ -102,28 +105,34 @@ function startParts(model, help) {
 
   startK(model, lanes, setups, bounds);
   new EnginePanel(model, lanes, setups);
-  new RacePanel(model, lanes);
+  new RacePanel(model, lanes, player);
+  player.addEventListener("use", () => showSearch(model));
   new PlaybackBar(player);
   new ShowPanel(model);
   startLandLegend(model);
   new AgentsPanel(model, walkers);
   new MapsMenu(model);
-  new Files(model, lanes);
+  const scenario = new ScenarioBar(model, lanes, setups);
+  new Files(model, lanes, scenario);
   const tools = new ToolBar(model, stage);
-  startKeys({ model, player, stage, tools, setups, help });
+  startKeys({ model, player, stage, tools, setups, scenario, help });
   addEventListener("hashchange", () => loadLink(model));
+  if (isFirst) startTour({ model, lanes, setups, stage, moves, painted });
 }
 
 /** Starts the page, with what start.js has loaded. @param {Loaded} loaded */
 export async function start(loaded) {
   provide(loaded);
   warm();
+  addStyles();
   drawIcons(document);
   startTheme();
   startTabs();
   const help = startHelp();
   startMenus(document);
   const model = new Model();
-  await firstScene(model);
-  return startParts(model, help);
+  const isFirst = isFirstVisit();
+  const moves = isFirst && mayMove();
+  await firstScene(model, moves);
+  return startParts(model, help, { isFirst, moves });
 }

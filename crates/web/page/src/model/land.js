@@ -14,8 +14,9 @@ export const LAND = Object.freeze([
 /** The largest k that there is where steps cost differently. */
 export const LARGEST_K_ON_LAND = 8;
 
-/** On a map of more cells it would take minutes to find what each k is worth. */
+/** On a map of more cells it would take minutes to find what each k is worth on land, and seconds without. */
 export const MOST_CELLS_OF_LADDER = 2 ** 20;
+export const MOST_CELLS_OF_STEPS = 2 ** 18;
 
 /** @param {number} cost */
 export const landOf = (cost) => LAND.find((land) => land.cost === cost);

@@ -5,8 +5,8 @@
 // with the version first and a check of all that comes before last, so that a link that was cut or changed is
 // known for it. MAP is b.NAME (bundled), g.NAME.SIDE.SEED (generated), e.WIDTH.HEIGHT (empty) or
 // f.WIDTH.HEIGHT.NAME (a file, whose blocked cells the edits hold; F if it was edited). Land has a field
-// tCOST.CELLS for each cost of cells that differ from the map's, of a file from 1. Settings that are as in a
-// new scene are left out.
+// tCOST.CELLS for each cost of cells that differ from the map's, of a file from 1. Settings are left out that
+// are 0, and the overlay if it is the search.
 
 import { BitSet } from "./bits.js";
 import { deflate, digest, fromRuns, fromText, inflate, toRuns, toText } from "./bytes.js";

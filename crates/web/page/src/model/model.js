@@ -32,7 +32,7 @@ export class Model extends EventTarget {
 
   /** @type {readonly Readonly<LaneSetup>[]} */ #lanes = [setups.FIRST_LANE];
   /** @type {Settings} */
-  #settings = { active: 0, overlay: "search", nearest: false, radius: 0, agents: 0 };
+  #settings = { active: 0, overlay: "none", nearest: false, radius: 0, agents: 0 };
 
   #history = new History();
   /** The cells that were flipped since the last step of undo. */

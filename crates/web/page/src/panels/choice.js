@@ -1,6 +1,7 @@
 // A choice of one of a few, side by side, each with a small drawing if it has one.
 
 import { h } from "./dom.js";
+import { noteOf } from "./notes.js";
 
 /**
  * @typedef {object} Option
@@ -23,8 +24,9 @@ export class Choice {
    * @param {string} legend
    * @param {Option[]} options
    * @param {(value: string) => void} chosen
+   * @param {string} note
    */
-  constructor(legend, options, chosen) {
+  constructor(legend, options, chosen, note) {
     const name = `choice-${++groups}`;
     const labels = options.map(({ value, label, figure }) => {
       const input = h("input", { type: "radio", name, value, class: "sr-only", change: () => chosen(value) });
@@ -35,6 +37,7 @@ export class Choice {
       "fieldset",
       { class: "choices" },
       h("legend", {}, legend),
+      ...noteOf(note),
       h("div", { class: "choice-row" }, ...labels),
     );
   }

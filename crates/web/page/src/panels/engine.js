@@ -46,31 +46,53 @@ export class EnginePanel {
       /** @type {string} */ legend,
       /** @type {keyof LaneSetup} */ key,
       /** @type {[string, string, (() => SVGElement)?][]} */ options,
+      /** @type {string} */ note,
     ) =>
       new Choice(
         legend,
         options.map(([value, label, figure]) => ({ value, label, figure: figure?.() })),
         (value) => setups.change({ [key]: value }),
+        note,
       );
     this.#engine = select({}, (engine) => setups.change({ engine }), { "aria-labelledby": "engine-title" });
-    this.#placement = choice("Vertices", "placement", [
-      ["corner", "corners", PLACEMENTS.corner],
-      ["center", "centers", PLACEMENTS.center],
-    ]);
-    this.#corners = choice("Corner cutting", "corners", [
-      ["never", "never", CORNER_RULES.never],
-      ["one", "one", CORNER_RULES.one],
-      ["always", "always", CORNER_RULES.always],
-    ]);
-    this.#gap = choice("Gaps", "gap", [
-      ["open", "open", GAP_RULES.open],
-      ["closed", "closed", GAP_RULES.closed],
-    ]);
-    this.#smooth = choice("Smoothing", "smooth", [
-      ["", "none"],
-      ["linear", "linear"],
-      ["taut", "taut"],
-    ]);
+    this.#placement = choice(
+      "Vertices",
+      "placement",
+      [
+        ["corner", "corners", PLACEMENTS.corner],
+        ["center", "centers", PLACEMENTS.center],
+      ],
+      "vertices",
+    );
+    this.#corners = choice(
+      "Corner cutting",
+      "corners",
+      [
+        ["never", "never", CORNER_RULES.never],
+        ["one", "one", CORNER_RULES.one],
+        ["always", "always", CORNER_RULES.always],
+      ],
+      "corners",
+    );
+    this.#gap = choice(
+      "Gaps",
+      "gap",
+      [
+        ["open", "open", GAP_RULES.open],
+        ["closed", "closed", GAP_RULES.closed],
+      ],
+      "gaps",
+    );
+    this.#smooth = choice(
+      "Smoothing",
+      "smooth",
+      [
+        ["", "none"],
+        ["linear", "linear"],
+        ["taut", "taut"],
+      ],
+      "smoothing",
+    );
     this.#build();
     const show = eachFrame(() => this.#show());
     changes(model, show);
@@ -97,8 +119,9 @@ export class EnginePanel {
     const nearest = h("label", { class: "check" }, this.#nearest, "Nearest vertex if there is no way");
     const panel = part("engine", HTMLElement);
     panel.querySelector(".panel-head")?.append(this.#mark, this.#engine);
-    panel.append(
-      this.#why,
+    const rules = h(
+      "div",
+      { class: "rules" },
       this.#paper,
       h("div", { class: "choice-pair" }, this.#placement.element, this.#corners.element, this.#gap.element),
       this.#placement.reason,
@@ -109,6 +132,7 @@ export class EnginePanel {
       radius,
       nearest,
     );
+    panel.append(this.#why, h("details", { class: "more" }, h("summary", {}, "Rules of motion"), rules));
   }
 
   #fillEngines() {

@@ -1,4 +1,4 @@
-// Opens maps and scenes from files, by a dialog or by a drop anywhere; saves; copies the link.
+// Opens maps, scenes and scenarios from files, by a dialog or by a drop anywhere; saves; copies the link.
 
 import { encode, fromFile, TOO_LARGE, toFile } from "../model/link.js";
 import { titleOf } from "../model/maps.js";
@@ -13,11 +13,13 @@ import { openScene } from "./scenes.js";
 export class Files {
   #model;
   #lanes;
+  #scenario;
 
-  /** @param {Model} model @param {Lanes} lanes */
-  constructor(model, lanes) {
+  /** @param {Model} model @param {Lanes} lanes @param {import("./scenario.js").ScenarioBar} scenario */
+  constructor(model, lanes, scenario) {
     this.#model = model;
     this.#lanes = lanes;
+    this.#scenario = scenario;
     const input = part("file", HTMLInputElement);
     part("open", HTMLElement).addEventListener("click", () => input.click());
     input.addEventListener("change", () => {
@@ -38,13 +40,20 @@ export class Files {
         say(`${first.name} is open.`, { key: "file" });
         return;
       }
-      const map = await this.#lanes.readMap(files);
-      const { name, width, height, cells } = map;
-      this.#model.load({ width, height, cells, source: { kind: "file", name } });
-      say(`${name}: ${width} × ${height} cells.`, { key: "file" });
+      const scenario = files.find(({ name }) => /\.scen$/i.test(name));
+      const rest = files.filter((file) => file !== scenario);
+      if (rest.length) await this.#openMap(rest);
+      if (scenario) await this.#scenario.open(scenario, rest.length > 0);
     } catch (error) {
       say(sentence(error), { kind: "error", key: "file" });
     }
+  }
+
+  /** @param {File[]} files */
+  async #openMap(files) {
+    const { name, width, height, cells } = await this.#lanes.readMap(files);
+    this.#model.load({ width, height, cells, source: { kind: "file", name } });
+    say(`${name}: ${width} × ${height} cells.`, { key: "file" });
   }
 
   async #share() {

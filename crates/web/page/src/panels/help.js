@@ -2,12 +2,14 @@
 
 import { h, part } from "./dom.js";
 import { iconButton } from "./icons.js";
+import { NOTES } from "./notes.js";
 
 const TODO = [
   "Drag the start and the goal. The path follows.",
   "Drag k. Each k adds the mediants: a new move between every two neighbors, their sum. Paths get shorter, " +
     "and the bars say how much at most is left.",
-  "Draw walls, or open a map of your own: drop a file on the page.",
+  "Draw walls, or open a map of your own: drop a file on the page. With a scenario of the MovingAI " +
+    "benchmarks you go through its queries.",
   "Take the brush of grass, forest or swamp: steps cost more there, and the path follows the cost. The map " +
     "Landscape is made of them.",
   "Add lanes to race engines, and play their searches side by side.",
@@ -16,7 +18,9 @@ const TODO = [
 const KEYS = [
   ["M D E F R", "move, draw, erase, fill, rectangle"],
   ["L", "another brush: wall, road, grass, forest, swamp"],
-  ["[ ]", "k down, k up"],
+  ["[ ]", "k down, k up, to the next one that changes the path"],
+  ["Shift ← →", "at the knob: each k"],
+  ["B N", "in a scenario: the query before, the next one"],
   ["P", "play or pause"],
   [", .", "one expansion back, on"],
   ["0 + −", "fit the map, zoom in, zoom out"],
@@ -32,25 +36,15 @@ const WORDS = [
       "direction.",
   ],
   ["mediant", "The sum of two neighboring moves. N(k + 1) has one between every two moves of N(k)."],
-  [
-    "excess",
-    "The length of a path beyond that of the shortest at any angle, in percent; at centers, beyond " +
-      "that of the shortest over N(k).",
-  ],
-  ["certificate", "A proof for this one path: it is at most so much longer than the shortest at any angle."],
-  ["expansion", "The search takes a vertex from its open list and looks at its successors."],
+  ...["excess", "certificate", "expansions", "vertices", "corners", "gaps", "smoothing"].map((key) => [
+    NOTES[key].word,
+    NOTES[key].text,
+  ]),
   ["open", "Vertices that were reached but not expanded."],
   [
     "cost",
     "What a step of length 1 costs on a cell. A path costs its length in each cell times the cell's cost.",
   ],
-  ["placement", "The place of the vertices: at the centers of cells, or at their corners."],
-  [
-    "corner cutting",
-    "At centers: of the two cells beside a corner point that a move passes, how many may be " +
-      "blocked: none, one, or both.",
-  ],
-  ["gap", "A corner at which two blocked cells touch diagonally. A path may pass it, or it may not."],
   ["clearance", "The distance to the nearest obstacle, in a straight line."],
   ["index", "Data that an engine prepares from a map once, so that queries are fast."],
   ["optimal(k)", "No path over N(k) is shorter. At k = ∞: no legal path at all."],

@@ -38,6 +38,8 @@ const PATHS = {
   forward: "M5.5 4.5v11L13 10zM15 4.5v11",
   first: "M16 4.5v11L9.5 10zM9.5 4.5v11L3 10z",
   last: "M4 4.5v11l6.5-5.5zM10.5 4.5v11L17 10z",
+  previous: "M12.5 4.5 7 10l5.5 5.500",
+  next: "M7.5 4.5 13 10l-5.5 5.500",
   close: "M5 5l10 10M15 5 5 15",
   retry: "M16 10a6 6 0 1 1-1.8-4.3L16 7.5M16 3.5v4h-4",
   stop: "M5.5 5.5h9v9h-9z",

@@ -1,22 +1,15 @@
 // The knob: the slider for k, the star of moves beside it, and what k is worth.
 
 import { LARGEST_K_ON_LAND, MOST_CELLS_OF_LADDER } from "../model/land.js";
-import { changes, eachFrame, h, part, s, setText } from "./dom.js";
+import { ANY, kAt, PLACES, placeOf } from "../model/steps.js";
+import { Bars } from "./bars.js";
+import { changes, eachFrame, h, part, setText } from "./dom.js";
 import { LadderTable } from "./ladder.js";
 import { readout } from "./readout.js";
 import { drawStar } from "./star.js";
 import { count } from "./words.js";
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
-
-/** The place of ∞ on the slider. */
-const ANY = 13;
-const PLACES = Array.from({ length: ANY - 1 }, (_, index) => index + 2);
-
-/** @param {number} place @returns {number | "any"} */
-const kAt = (place) => (place === ANY ? "any" : place);
-/** @param {number | "any"} k */
-const placeOf = (k) => (k === "any" ? ANY : k);
 
 /**
  * @param {import("../../types").Model} model
@@ -26,9 +19,11 @@ const placeOf = (k) => (k === "any" ? ANY : k);
  */
 export function startK(model, lanes, setups, bounds) {
   const slider = part("k-slider", HTMLInputElement);
-  slider.addEventListener("input", () => setups.change({ k: kAt(Number(slider.value)) }));
-  drawTicks((place) => setups.change({ k: kAt(place) }));
-  const worth = new Worth();
+  const choose = (/** @type {number} */ place) => setups.change({ k: kAt(place) });
+  slider.addEventListener("input", () => choose(Number(slider.value)));
+  slider.addEventListener("keydown", (event) => stepKey(event, setups));
+  drawTicks(choose);
+  const bars = new Bars((place) => choose(stepOf(setups.steps, place)[0]));
   const star = new Star(lanes);
   const ladder = new LadderTable((k) => setups.change({ k }));
   const show = eachFrame(() => {
@@ -39,14 +34,12 @@ export function startK(model, lanes, setups, bounds) {
     const known = bounds.of(setup);
     const onLand = model.costs !== null;
     const lane = lanes.list[model.active] ?? null;
-    if (onLand) worth.showLand(setup.k, lanes.ladder);
-    else worth.show(setup, known, lane, `${model.version} ${model.radius}`);
+    const { steps } = setups;
+    if (onLand) bars.showLand(setup.k, lanes.ladder, steps);
+    else bars.show(setup.k, known, lane, lanes.ladder, steps);
     ladder.show(onLand && model.cells.length <= MOST_CELLS_OF_LADDER, lanes.ladder, setup.k);
     showLegend(onLand);
-    for (const tick of part("k-ticks", HTMLElement).children) {
-      const place = Number(tick.getAttribute("data-place"));
-      tick.classList.toggle("beyond", onLand && place > LARGEST_K_ON_LAND);
-    }
+    showSteps(steps, onLand);
     readout(setup, lane, known.get(setup.k), onLand);
   });
   changes(model, show);
@@ -56,6 +49,18 @@ export function startK(model, lanes, setups, bounds) {
   show();
 }
 
+/** The step of a place. @param {number[][]} steps @param {number} place */
+const stepOf = (steps, place) => steps.find((step) => step.includes(place)) ?? [place];
+
+/** Arrows go to the next k that changes the path; with Shift to the next k, as the slider does by itself.
+ *  @param {KeyboardEvent} event @param {import("./setups.js").Setups} setups */
+function stepKey(event, setups) {
+  const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+  if (by === undefined || event.shiftKey || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  setups.stepK(by > 0 ? 1 : -1);
+}
+
 /** @param {(place: number) => void} chosen */
 function drawTicks(chosen) {
   const ticks = PLACES.map((place) => {
@@ -63,6 +68,21 @@ function drawTicks(chosen) {
     return h("span", { "data-place": place, click: () => chosen(place) }, text);
   });
   part("k-ticks", HTMLElement).append(...ticks);
+}
+
+/** Joins the ticks of each step, and says which k give the same path. @param {number[][]} steps
+ *  @param {boolean} onLand */
+function showSteps(steps, onLand) {
+  for (const tick of part("k-ticks", HTMLElement).children) {
+    const place = Number(tick.getAttribute("data-place"));
+    const step = stepOf(steps, place);
+    tick.classList.toggle("beyond", onLand && place > LARGEST_K_ON_LAND);
+    tick.classList.toggle("joined", place !== step[0]);
+    tick.classList.toggle("joins", place !== step[step.length - 1]);
+  }
+  const long = steps.filter(({ length }) => length > 1);
+  const ranges = long.map((step) => `${step[0]} to ${step[step.length - 1]}`);
+  setText(part("k-same", HTMLElement), ranges.length ? `The same path: k = ${ranges.join(", ")}` : "");
 }
 
 /** @param {HTMLInputElement} slider @param {LaneSetup} setup */
@@ -119,75 +139,4 @@ class Star {
     if (moves && k === this.#k) drawStar(part("star", SVGSVGElement), k, moves, grows);
     else if (!moves) this.#k = 0;
   }
-}
-
-/** The bars over the slider: the bound of each k, and the excess of the paths that were seen. */
-class Worth {
-  /** The excess by k, of the scene of now. @type {Map<number | "any", number>} */
-  #seen = new Map();
-  #key = "";
-  #drawn = "";
-
-  /**
-   * @param {LaneSetup} setup
-   * @param {Map<number | "any", number | null>} bounds
-   * @param {import("../../types").LaneState | null} lane
-   * @param {string} scene the map, and the agent on it
-   */
-  show(setup, bounds, lane, scene) {
-    const answer = lane && !lane.stale ? lane.answer : null;
-    const ends = answer ? `${answer.start} ${answer.goal}` : (this.#key.split("|")[2] ?? "");
-    const key = `${setup.placement} ${setup.corners} ${setup.gap} ${setup.smooth}|${scene}|${ends}`;
-    if (key !== this.#key) this.#seen.clear();
-    this.#key = key;
-    if (answer?.reference?.what === "any" && answer.status === "found" && answer.reference.length > 0) {
-      this.#seen.set(setup.k, answer.length / answer.reference.length);
-    }
-    const state = JSON.stringify([setup.k, [...bounds], [...this.#seen]]);
-    if (state === this.#drawn) return;
-    this.#drawn = state;
-    this.#draw(setup.k, bounds);
-  }
-
-  /** On land no bound holds on every map: the bars are how much more each k costs than the largest one.
-   *  @param {number | "any"} now @param {import("./ladder.js").Rungs} rungs */
-  showLand(now, rungs) {
-    const state = JSON.stringify(["land", now, [...rungs]]);
-    if (state === this.#drawn) return;
-    this.#drawn = state;
-    this.#seen.clear();
-    this.#key = "";
-    const least = rungs.get(LARGEST_K_ON_LAND)?.cost;
-    /** @type {Map<number | "any", number>} */ const ratios = new Map();
-    if (least) for (const [k, { cost }] of rungs) ratios.set(k, cost / least);
-    this.#draw(now, ratios);
-  }
-
-  /** @param {number | "any"} now @param {Map<number | "any", number | null>} bounds */
-  #draw(now, bounds) {
-    const svg = part("k-bars", SVGSVGElement);
-    const [width, height] = [PLACES.length, 4];
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("preserveAspectRatio", "none");
-    const marks = PLACES.flatMap((place, index) => {
-      const k = kAt(place);
-      const kind = k === now ? " now" : "";
-      const bound = bounds.get(k);
-      const seen = this.#seen.get(k);
-      const high = Math.max(bound ? rise(bound) : 0, 0.06);
-      const box = { x: index + 0.14, width: 0.72, y: height - high, height: high };
-      const bar = s("rect", { class: `bar${kind}`, ...box });
-      if (seen === undefined) return [bar];
-      const y = height - Math.max(rise(seen), 0.03);
-      return [bar, s("path", { class: `seen${kind}`, d: `M${index + 0.14} ${y}h0.72` })];
-    });
-    svg.replaceChildren(...marks);
-  }
-}
-
-/** The height of a ratio over the slider. The root lets us see small excesses beside large ones.
- *  @param {number} ratio */
-function rise(ratio) {
-  const most = 0.45;
-  return Math.sqrt(Math.min(Math.max(ratio - 1, 0), most) / most) * 3.8;
 }

@@ -11,9 +11,10 @@ import { TOOLS } from "./tools.js";
  * @param {import("../../types").Stage} parts.stage
  * @param {ToolBar} parts.tools
  * @param {import("./setups.js").Setups} parts.setups
+ * @param {import("./scenario.js").ScenarioBar} parts.scenario
  * @param {() => void} parts.help
  */
-export function startKeys({ model, player, stage, tools, setups, help }) {
+export function startKeys({ model, player, stage, tools, setups, scenario, help }) {
   /** @type {Record<string, () => void>} */
   const actions = {
     "[": () => setups.stepK(-1),
@@ -26,6 +27,8 @@ export function startKeys({ model, player, stage, tools, setups, help }) {
     "+": () => stage.zoom(1.25),
     "=": () => stage.zoom(1.25),
     "-": () => stage.zoom(0.8),
+    n: () => scenario.step(1),
+    b: () => scenario.step(-1),
     l: () => tools.nextBrush(),
     "?": help,
   };

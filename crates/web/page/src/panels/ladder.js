@@ -4,7 +4,7 @@ import { LARGEST_K_ON_LAND } from "../model/land.js";
 import { h, part } from "./dom.js";
 import { cells, more } from "./words.js";
 
-/** @typedef {ReadonlyMap<number, { cost: number, length: number }>} Rungs */
+/** @typedef {import("../model/steps.js").Rungs} Rungs */
 
 const KS = Array.from({ length: LARGEST_K_ON_LAND - 1 }, (_, index) => index + 2);
 

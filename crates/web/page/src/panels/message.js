@@ -24,6 +24,8 @@ export function say(text, { kind = "notice", key = text } = {}) {
     close,
   );
   part("messages", HTMLElement).append(message);
+  // There is less room for the page now: what is in use stays in sight.
+  document.activeElement?.scrollIntoView({ block: "nearest" });
   shown.set(key, message);
   if (kind === "notice") expire(key, message);
 }
@@ -43,9 +45,30 @@ function expire(key, message) {
   }, NOTICE_MS);
 }
 
-/** Says a sentence to those who do not see the page. @param {string} text */
+/** Whether the page moves by itself, and says nothing of it. */
+let isHushed = false;
+/** The sentence before the next one that is said. */
+let preface = "";
+
+/** Nothing more is said to those who do not see the page. */
+export function hush() {
+  isHushed = true;
+  for (const output of document.querySelectorAll("output")) output.setAttribute("aria-live", "off");
+}
+
+/** Sentences are said again, the next one after this one. @param {string} first */
+export function unhush(first) {
+  isHushed = false;
+  preface = first;
+  for (const output of document.querySelectorAll("output")) output.removeAttribute("aria-live");
+}
+
+/** Says a sentence to those who do not see the page. Returns whether it was said. @param {string} text */
 export function announce(text) {
-  part("summary", HTMLElement).textContent = text;
+  if (isHushed) return false;
+  part("summary", HTMLElement).textContent = `${preface}${text}`;
+  preface = "";
+  return true;
 }
 
 /** Says at the head of the page why nothing can run. @param {string} text */

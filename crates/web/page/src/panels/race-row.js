@@ -21,7 +21,8 @@ import {
 /** @typedef {import("../../types").LaneState} LaneState */
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {{ name: string, title: string, value: ((lane: LaneState) => number | undefined) | null,
- *   text: (lane: LaneState, setup: LaneSetup) => string, onLand?: boolean }} Column */
+ *   text: (lane: LaneState, setup: LaneSetup) => string, onLand?: boolean, inRace?: boolean,
+ *   note?: string }} Column `inRace`: of one lane alone, the panel of the knob says it. */
 
 /** @param {LaneState} lane */
 function lengthText({ answer }) {
@@ -54,6 +55,7 @@ export const COLUMNS = [
   { name: "k", title: "The number of moves is 2 to the k", value: null, text: (_, setup) => kText(setup.k) },
   {
     name: "Expansions",
+    note: "expansions",
     title: "Vertices taken from the open list; hub labels need no search",
     value: expansions,
     text: (lane) => (hasNoSearch(lane) ? "no search" : shown(expansions(lane), count)),
@@ -64,11 +66,14 @@ export const COLUMNS = [
     value: cost,
     text: (lane) => shown(lane.answer?.path.length ? (lane.answer.cost ?? undefined) : undefined, cells),
     onLand: true,
+    inRace: true,
   },
-  { name: "Length", title: "In cells", value: length, text: lengthText },
+  { name: "Length", title: "In cells", value: length, text: lengthText, inRace: true },
   {
     name: "Excess",
+    note: "excess",
     onLand: false,
+    inRace: true,
     title: "How much longer the path is than the shortest",
     value: ({ answer }) => (answer?.reference?.what === "any" ? excess(answer) : undefined),
     text: ({ answer }, setup) => {
@@ -79,7 +84,9 @@ export const COLUMNS = [
   },
   {
     name: "Certificate",
+    note: "certificate",
     onLand: false,
+    inRace: true,
     title: "Proven: at most so much longer than the shortest path at any angle",
     value: certificate,
     text: (lane) => shown(certificate(lane), atMost),
@@ -98,6 +105,11 @@ export const COLUMNS = [
       index && index.bytes > 0 ? `${whole(time(index.ms))}, ${whole(size(index.bytes))}` : "–",
   },
 ];
+
+/** Whether the table has this column. @param {Column} column @param {import("../../types").Model} model */
+export function isShown({ onLand, inRace }, { costs, lanes }) {
+  return (onLand ?? costs !== null) === (costs !== null) && !(inRace && lanes.length < 2);
+}
 
 export class RaceRow {
   #index;
@@ -168,9 +180,10 @@ export class RaceRow {
     );
     setText(this.#name, engineName(setup.engine));
     setText(this.#motion, motionText(setup));
-    const onLand = this.#model.costs !== null;
+    // Alone, the panel of the engine says it.
+    this.#motion.hidden = this.#model.lanes.length < 2;
     COLUMNS.forEach((column, at) => {
-      this.#cells[at].hidden = (column.onLand ?? onLand) !== onLand;
+      this.#cells[at].hidden = !isShown(column, this.#model);
     });
     COLUMNS.forEach((column, at) => this.#showCell(column, at, setup, lane, best));
     this.#showStatus(lane, setup);

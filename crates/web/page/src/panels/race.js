@@ -3,14 +3,17 @@
 import { MOST_LANES } from "../model/setups.js";
 import { changes, eachFrame, h, part, select } from "./dom.js";
 import { icon } from "./icons.js";
+import { noteOf } from "./notes.js";
 import { PRESETS } from "./presets.js";
-import { COLUMNS, RaceRow } from "./race-row.js";
+import { COLUMNS, isShown, RaceRow } from "./race-row.js";
+import { showSearch } from "./show.js";
 
 /** @typedef {import("../../types").LaneState} LaneState */
 
 export class RacePanel {
   #model;
   #lanes;
+  #player;
   /** @type {RaceRow[]} */
   #rows = [];
   #body = h("tbody", { role: "rowgroup" });
@@ -21,10 +24,12 @@ export class RacePanel {
   /**
    * @param {import("../../types").Model} model
    * @param {import("../../types").Lanes} lanes
+   * @param {import("../../types").Player} player
    */
-  constructor(model, lanes) {
+  constructor(model, lanes, player) {
     this.#model = model;
     this.#lanes = lanes;
+    this.#player = player;
     this.#build();
     const show = eachFrame(() => this.#show());
     changes(model, show);
@@ -35,7 +40,16 @@ export class RacePanel {
   #build() {
     const head = (/** @type {Node | string} */ name, title = "") =>
       h("th", { scope: "col", role: "columnheader", title: title || null }, name);
-    this.#heads = COLUMNS.map(({ name, title }) => head(name, title));
+    /** @type {HTMLElement[]} */
+    const notes = [];
+    this.#heads = COLUMNS.map(({ name, title, note }) => {
+      const cell = head(name, title);
+      if (!note) return cell;
+      const [button, opened] = noteOf(note);
+      cell.append(button);
+      notes.push(opened);
+      return cell;
+    });
     const table = h(
       "table",
       { class: "race-table", role: "table", "aria-labelledby": "race-title" },
@@ -56,30 +70,43 @@ export class RacePanel {
     const presets = select(
       { "": "Set up a race…", ...names },
       (value) => {
-        const preset = PRESETS[Number(value.split(" ")[1])];
-        if (preset) this.#model.setLanes(preset.lanes.map((lane) => ({ ...lane })));
+        this.#start(PRESETS[Number(value.split(" ")[1])].lanes);
         presets.value = "";
       },
       { "aria-label": "Set up a race" },
     );
-    this.#add.addEventListener("click", () => this.#model.addLane());
+    this.#add.addEventListener("click", () => {
+      this.#model.addLane();
+      showSearch(this.#model);
+    });
     part("race", HTMLElement).append(
       h("div", { class: "race-head" }, h("h2", { "aria-hidden": "true" }, "Race"), presets, this.#add),
       h("div", { class: "race-scroll" }, table),
+      ...notes,
     );
+  }
+
+  /** @param {import("../../types").LaneSetup[]} lanes */
+  #start(lanes) {
+    this.#model.batch(() => {
+      this.#model.setLanes(lanes.map((lane) => ({ ...lane })));
+      showSearch(this.#model);
+    });
+    this.#player.start();
   }
 
   #show() {
     const setups = this.#model.lanes;
+    // The sentence of a lane alone stands beside its name: the map above does not move when there is one.
+    this.#body.classList.toggle("is-alone", setups.length < 2);
     while (this.#rows.length > setups.length) this.#rows.pop()?.element.remove();
     while (this.#rows.length < setups.length) {
       const row = new RaceRow(this.#rows.length, this.#model, this.#lanes);
       this.#rows.push(row);
       this.#body.append(row.element);
     }
-    const onLand = this.#model.costs !== null;
     COLUMNS.forEach((column, at) => {
-      this.#heads[at].hidden = (column.onLand ?? onLand) !== onLand;
+      this.#heads[at].hidden = !isShown(column, this.#model);
     });
     const best = bests(this.#lanes.list.slice(0, setups.length));
     for (const row of this.#rows) row.show(best);

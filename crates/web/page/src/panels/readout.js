@@ -1,9 +1,9 @@
-// The answer of the active lane in three numbers and a sentence.
+// The answer of the active lane: the length, how far it is from the shortest, and a sentence.
 
 import { LARGEST_K_ON_LAND } from "../model/land.js";
 import { h, part } from "./dom.js";
 import { announce } from "./message.js";
-import { cells, count, excess, hasNoSearch, more, over } from "./words.js";
+import { cells, count, excess, hasNoSearch, more, over, sentenceOf } from "./words.js";
 
 /** @typedef {import("../../types").LaneSetup} LaneSetup */
 /** @typedef {import("../../types").LaneState} LaneState */
@@ -15,21 +15,23 @@ import { cells, count, excess, hasNoSearch, more, over } from "./words.js";
  * @param {boolean} onLand whether steps cost differently
  */
 export function readout(setup, lane, bound, onLand) {
-  const answer = lane?.answer ?? null;
   const list = part("readout", HTMLElement);
   list.classList.toggle("stale", lane?.stale ?? false);
-  const reference = answer?.reference?.what === "k" ? `over N(${setup.k})` : "over any angle";
-  const length = figure("Length", lengthText(lane), answer?.path.length ? "cells" : "");
+  const length = figure("Length", lengthText(lane), lane?.answer?.path.length ? "cells" : "");
   const figures = onLand
     ? [figure("Cost", costText(lane), "over the land"), length]
-    : [
-        length,
-        figure("Excess", excessText(lane), reference),
-        figure("Certificate", certificate(lane), "at most"),
-      ];
+    : [length, figure("Longer than the shortest", excessText(lane), reference(setup, lane))];
   list.replaceChildren(...figures);
-  part("worth", HTMLElement).textContent = onLand ? worthOnLand(setup) : worth(setup, bound);
+  const wrong = lane ? sentenceOf(lane) : "";
+  const sentence = part("worth", HTMLElement);
+  sentence.classList.toggle("error", wrong !== "");
+  sentence.textContent = wrong || (onLand ? worthOnLand(setup) : worth(setup, bound));
   tell(lane);
+}
+
+/** @param {LaneSetup} setup @param {LaneState | null} lane */
+function reference({ k }, lane) {
+  return lane?.answer?.reference?.what === "k" ? `over N(${k})` : "at any angle";
 }
 
 /** @param {string} name @param {string} value @param {string} unit */
@@ -72,22 +74,14 @@ function excessText(lane) {
   return ratio === undefined ? "–" : more(ratio);
 }
 
-/** @param {LaneState | null} lane */
-function certificate(lane) {
-  const bound = lane?.answer?.bound;
-  return typeof bound === "number" && lane?.answer?.status === "found" ? more(bound) : "–";
-}
-
 /** The bound of this k on any map, as a sentence. @param {LaneSetup} setup
  *  @param {number | null | undefined} bound */
 function worth(setup, bound) {
-  if (setup.k === "any") return "N(∞): no path at any angle is shorter, on any map.";
+  if (setup.k === "any") return "No path at any angle is shorter, on any map.";
+  if (setup.placement === "center") return "Between centers no bound holds on all maps.";
   if (bound === undefined) return "";
-  if (setup.placement === "center") {
-    return `N(${setup.k}): no bound holds at centers against paths that bend at corners of walls.`;
-  }
-  if (bound === null) return `N(${setup.k}): there is no bound.`;
-  return `N(${setup.k}): at most ${over(bound)} longer than the shortest path at any angle, on any map.`;
+  if (bound === null) return `For k = ${setup.k} there is no bound.`;
+  return `On any map, with k = ${setup.k}: at most ${over(bound)} longer.`;
 }
 
 /** The sentence that was said last. */
@@ -102,8 +96,7 @@ function tell(lane) {
   clearTimeout(waiting);
   if (text === said) return;
   waiting = setTimeout(() => {
-    said = text;
-    announce(text);
+    if (announce(text)) said = text;
   }, 700);
 }
 

@@ -1,6 +1,7 @@
 // Changes the setup of the active lane, for all panels. It remembers what was wished for: an engine that made
 // way for a k is back as soon as the k allows it.
 
+import { kAt, placeOf, stepped, stepsFor } from "../model/steps.js";
 import { changes } from "./dom.js";
 import { mended } from "./mend.js";
 import { dismiss, say } from "./message.js";
@@ -22,8 +23,9 @@ export class Setups {
     changes(model, ({ lanes }) => lanes && !this.#isMine && dismiss("mend"));
   }
 
-  /** Changes the active lane. @param {Partial<LaneSetup>} change */
-  change(change) {
+  /** Changes the active lane. `quietly`: without a word about what else that changed.
+   *  @param {Partial<LaneSetup>} change @param {boolean} [quietly] */
+  change(change, quietly = false) {
     const index = this.#model.active;
     const now = this.#model.lanes[index];
     if (!now) return;
@@ -36,15 +38,21 @@ export class Setups {
     this.#isMine = true;
     this.#model.setLane(index, setup);
     this.#isMine = false;
-    if (said) say(said, { key: "mend" });
+    if (said && !quietly) say(said, { key: "mend" });
     else dismiss("mend");
   }
 
-  /** One k up or down; after 12 comes ∞. @param {1 | -1} by */
+  /** The steps of the knob, for the active lane. */
+  get steps() {
+    const setup = this.#model.lanes[this.#model.active];
+    const engine = this.#lanes.engines.find(({ name }) => name === setup.engine);
+    return stepsFor(setup, engine?.guarantee, this.#lanes.ladder);
+  }
+
+  /** One step of k up or down. @param {1 | -1} by */
   stepK(by) {
-    const k = this.#model.lanes[this.#model.active]?.k ?? 3;
-    const at = Math.min(13, Math.max(2, (k === "any" ? 13 : k) + by));
-    this.change({ k: at === 13 ? "any" : at });
+    const { k } = this.#model.lanes[this.#model.active];
+    this.change({ k: kAt(stepped(this.steps, placeOf(k), by)) });
   }
 }
 

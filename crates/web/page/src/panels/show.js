@@ -33,6 +33,11 @@ const ON_LAND = {
   flow: "From each vertex, the direction in which a cheapest path to the goal begins.",
 };
 
+/** Shows the search, unless something else lies over the map. @param {import("../../types").Model} model */
+export function showSearch(model) {
+  if (model.overlay === "none") model.set({ overlay: "search" });
+}
+
 export class ShowPanel {
   #model;
   #overlay;
@@ -60,6 +65,8 @@ export class ShowPanel {
     setText(this.#words, onLand ? (ON_LAND[overlay] ?? WORDS[overlay]) : WORDS[overlay]);
     this.#words.hidden = WORDS[overlay] === "";
     this.#narrow.hidden = radius === 0;
+    // How it is played matters when it is seen.
+    part("playback", HTMLElement).classList.toggle("is-off", overlay === "none");
   }
 }
 

@@ -50,6 +50,16 @@ export function motionText(setup) {
   return `${setup.placement === "center" ? "centers" : "corners"}, ${rule}${smooth}`;
 }
 
+/** What is wrong with a lane, as a sentence; empty if nothing is. @param {LaneState} lane */
+export function sentenceOf({ phase, answer, message }) {
+  if (phase === "failed" || phase === "cancelled") return withNames(message);
+  if (phase !== "done" || !answer) return "";
+  if (answer.status === "invalid") return answer.error?.message ?? "The query is invalid.";
+  return answer.status === "unreachable"
+    ? "No path: walls part the start, shaded, from the goal, striped."
+    : "";
+}
+
 const WHOLE = new Intl.NumberFormat("en", { maximumFractionDigits: 0 });
 const TWO = new Intl.NumberFormat("en", { minimumFractionDigits: 2, maximumFractionDigits: 2 });
 

@@ -1,8 +1,9 @@
 // Reads a map from files that were dropped or opened: which of them is the map, and whether it is too
-// large.
+// large; and scenarios.
 
-/** @import { Grid } from "../../mediant/mediant.js" */
-/** @import { NamedBytes } from "./protocol.js" */
+/** @import { Grid, Scenario } from "../../mediant/mediant.js" */
+/** @import { Queries } from "../../types.js" */
+/** @import { NamedBytes, ScenarioWish } from "./protocol.js" */
 import { MOST_CELLS } from "./protocol.js";
 
 /** A sentence for the user. */
@@ -84,5 +85,32 @@ export function checkSize(name, width, height) {
       `${name} has ${width} × ${height} = ${number(width * height)} cells. This page takes at most ` +
         `${number(MOST_CELLS)}, which is 4096 × 4096. The program and the Python package take larger maps.`,
     );
+  }
+}
+
+/**
+ * The queries of a scenario, and whether they are for a map of this size.
+ * @param {Pick<typeof Scenario, "read">} scenarios - The reader of the package.
+ * @param {Grid} grid - As large as the map of the page.
+ * @param {ScenarioWish} wish
+ * @returns {Queries}
+ */
+export function readScenario(scenarios, grid, { name, bytes }) {
+  const scenario = scenarios.read(bytes);
+  try {
+    const [map] = scenario.maps();
+    if (map === undefined) {
+      throw new Refusal(`${name} is a scenario without a query.`);
+    }
+    let fits = true;
+    try {
+      scenario.check(grid);
+    } catch {
+      fits = false;
+    }
+    const [starts, goals, lengths] = [scenario.starts(), scenario.goals(), scenario.lengths()];
+    return { name, map: map.split(/[\\/]/).pop() ?? map, fits, starts, goals, lengths };
+  } finally {
+    scenario.free();
   }
 }

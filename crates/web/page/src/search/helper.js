@@ -1,11 +1,11 @@
 // The helper: a worker for all that is no lane's query. It reads files, tells the moves of N(k), what they
 // are worth and which setups go together, and computes what lies over the map.
 
-/** @import { LaneSetup } from "../../types.js" */
-/** @import { CostWish, OverlayWish, Request } from "./protocol.js" */
+/** @import { LaneSetup, Rung } from "../../types.js" */
+/** @import { OverlayWish, Request, RungWish } from "./protocol.js" */
 /** @import { Field } from "../../mediant/mediant.js" */
-import { bound, checkSetup, Grid, initSync, moves } from "../../mediant/mediant.js";
-import { readMap } from "./files.js";
+import { bound, checkSetup, Grid, initSync, moves, Scenario } from "../../mediant/mediant.js";
+import { readMap, readScenario } from "./files.js";
 import { motionOf, optionsOf, sentence, textOf } from "./protocol.js";
 import { edited, spaceOf } from "./session.js";
 
@@ -36,13 +36,27 @@ function reply(request) {
       const map = readMap(Grid, request.files);
       return { value: map, transfer: [/** @type {ArrayBuffer} */ (map.cells.buffer)] };
     }
-    case "cost":
+    case "scenario": {
+      const { width, height } = request;
+      const empty = new Grid(width, height, new Uint8Array(width * height));
+      try {
+        return { value: readScenario(Scenario, empty, request), transfer: [] };
+      } finally {
+        empty.free();
+      }
+    }
+    case "rung":
       grid = edited(grid, request.news);
-      return { value: grid && costOf(grid, request), transfer: [] };
+      return { value: grid && rungOf(grid, request), transfer: [] };
     case "overlay": {
       grid = edited(grid, request.news);
-      const value = { field: grid && fieldOf(grid, request), narrow: grid && narrowOf(grid, request) };
-      const arrays = [value.field?.values, value.field?.flow, value.narrow].filter((array) => !!array);
+      const value = {
+        field: grid && fieldOf(grid, request),
+        narrow: grid && narrowOf(grid, request),
+        parts: grid && partsOf(grid, request),
+      };
+      const { field, narrow, parts } = value;
+      const arrays = [field?.values, field?.flow, narrow, parts?.values].filter((array) => !!array);
       return { value, transfer: arrays.map((array) => /** @type {ArrayBuffer} */ (array.buffer)) };
     }
   }
@@ -65,17 +79,18 @@ function whyNotOnLand(setup) {
 }
 
 /**
- * The cost and the length of the cheapest path; null if there is none.
+ * The best path; null if there is none.
  * @param {Grid} grid
- * @param {CostWish} wish
+ * @param {RungWish} wish
+ * @returns {Rung | null}
  */
-function costOf(grid, wish) {
+function rungOf(grid, wish) {
   const space = spaceOf(grid, wish);
-  const index = space.prepare("astar");
+  const index = space.prepare(wish.engine);
   const planner = index.planner();
   try {
-    const { cost, length } = planner.find(wish.start, wish.goal);
-    return cost === undefined ? null : { cost, length: length ?? 0 };
+    const { status, distance, length } = planner.find(wish.start, wish.goal);
+    return status === "found" ? { cost: distance, length: length ?? distance } : null;
   } catch (error) {
     // An end on a wall; the lane says so.
     if (error instanceof Error && error.name === "MediantError") return null;
@@ -145,6 +160,33 @@ function narrowOf(grid, { radius, setup, narrow }) {
   const cells = fitted.cells();
   fitted.free();
   return cells;
+}
+
+/**
+ * The vertices that the start reaches, 1, and those that the goal reaches, 2.
+ * @param {Grid} grid
+ * @param {OverlayWish} wish
+ */
+function partsOf(grid, { parts, setup, radius, start, goal }) {
+  if (!parts) {
+    return null;
+  }
+  // More moves connect no more, and take longer.
+  const space = spaceOf(grid, { setup: { ...setup, k: setup.k === 2 ? 2 : 3 }, radius });
+  try {
+    const fields = [start, goal].map((end) => space.field(end));
+    const { width, height } = fields[0];
+    const values = new Uint8Array(width * height);
+    fields.forEach((field, at) => {
+      field.distances().forEach((distance, v) => {
+        if (distance < Infinity) values[v] = at + 1;
+      });
+      field.free();
+    });
+    return { width, height, placement: setup.placement, values };
+  } finally {
+    space.free();
+  }
 }
 
 /** @typedef {{ type: "start", module: WebAssembly.Module } | (Request & { id: number })} Message */

@@ -2,11 +2,11 @@
 // it. The latest query wins: at most one is under way, and the one that waits is always that of the scene as
 // it is.
 
-/** @import { Change, LaneSetup, LaneState, Model } from "../../types.js" */
+/** @import { Change, LaneAnswer, LaneSetup, LaneState, Model } from "../../types.js" */
 /** @import { EngineInfo } from "../../mediant/mediant.js" */
 /** @import { Ask, FromLane, Order, Reply, ToLane, Walk } from "./protocol.js" */
 import { buffersOf, Feed } from "./feed.js";
-import { BROKEN, setupKey } from "./protocol.js";
+import { BROKEN, bestKey, setupKey } from "./protocol.js";
 import { Remote } from "./remote.js";
 
 /** The time (ms) after which a query is shown as under way. */
@@ -33,6 +33,7 @@ export const [QUICK, PAUSE] = [30, 120];
  * @property {number} at - The time.
  * @property {boolean} isPreparing
  * @property {boolean} tells - Whether the engine tells how far it is: such an index is never repaired.
+ * @property {string} scene - All on which the shortest path at any angle depends.
  */
 
 /**
@@ -106,6 +107,9 @@ export class Lane {
   #number = 0;
   /** The number of the answer. */
   #answered = 0;
+  /** The last shortest path at any angle, and its scene: it is the same for all k.
+   *  @type {{ scene: string, reference: LaneAnswer["reference"] }} */
+  #best = { scene: "", reference: null };
   /** Whether the last query was that of a gesture, so that something is left for its end. */
   #hurry = false;
   /** The time of an edit, in ms: a mean of the last ones, in which later ones weigh more. */
@@ -293,7 +297,8 @@ export class Lane {
     const hurry = gesture !== "";
     const record = !hurry || (this.state.answer?.expanded ?? 0) < MOST_RECORDED;
     [this.#isWanted, this.#isOther] = [false, false];
-    this.#sent = { number, at: performance.now(), isPreparing: false, tells: false };
+    const scene = bestKey(this.#model, this.setup);
+    this.#sent = { number, at: performance.now(), isPreparing: false, tells: false, scene };
     this.#hurry = hurry;
     const news = this.#feed.take();
     /** @type {Ask} */
@@ -376,6 +381,7 @@ export class Lane {
       case "answer":
         [this.#sent, this.#memory, this.#answered] = [null, message.memory, message.number];
         [state.answer, state.expanded] = [message.answer, message.answer.expanded];
+        this.#keep(sent.scene, message.answer);
         state.stale = this.#isWanted;
         this.#show("done");
         this.#model.gesture ? this.#pump() : this.settle();
@@ -400,8 +406,23 @@ export class Lane {
       [answer.ms, answer.settled] = [message.ms, message.settled];
     } else {
       answer.reference = message.reference;
+      this.#best.reference = message.reference;
     }
     this.#changed(this);
+  }
+
+  /**
+   * An answer has the reference of the one before, if that is still the best: it must not flicker.
+   * @param {string} scene
+   * @param {LaneAnswer} answer
+   */
+  #keep(scene, answer) {
+    const { reference } = this.#best;
+    if (scene !== this.#best.scene) {
+      this.#best = { scene, reference: null };
+    } else if (answer.status === "found" && reference?.what === "any") {
+      answer.reference = reference;
+    }
   }
 
   /**

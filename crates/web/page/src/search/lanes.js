@@ -3,6 +3,7 @@
 
 /** @import { Order } from "./protocol.js" */
 /** @import { Change, EngineInfo, Lanes as Contract, LaneSetup, LaneState, Model } from "../../types.js" */
+/** @import { Queries } from "../../types.js" */
 import { Helper } from "./assistant.js";
 import { Ladder } from "./ladder.js";
 import { Lane } from "./lane.js";
@@ -42,7 +43,11 @@ export class Lanes extends EventTarget {
     this.#model = model;
     this.ready = new Promise((resolve) => (this.#readied = resolve));
     this.#first = new Promise((resolve) => (this.#shown = resolve));
-    this.#overlay = new Overlay(model, () => this.#tell({ overlay: true }));
+    const isCut = () => {
+      const status = this.list[model.active]?.answer?.status;
+      return status === "unreachable" || status === "nearest";
+    };
+    this.#overlay = new Overlay(model, isCut, () => this.#tell({ overlay: true }));
     this.#ladder = new Ladder(model, () => this.#tell({ ladder: true }));
     this.#follow();
     this.#overlay.update();
@@ -56,6 +61,14 @@ export class Lanes extends EventTarget {
 
   get ladder() {
     return this.#ladder.rungs;
+  }
+
+  get isLadderWhole() {
+    return this.#ladder.isWhole;
+  }
+
+  get parts() {
+    return this.#overlay.parts;
   }
 
   get tooNarrow() {
@@ -109,6 +122,7 @@ export class Lanes extends EventTarget {
       this.#shown();
       if (index >= 0) {
         this.#tell({ lane: index });
+        this.#overlay.update();
       }
     };
     return new Lane(this.#model, setup, changed, (engines) => {
@@ -182,6 +196,15 @@ export class Lanes extends EventTarget {
       // A large map leaves much memory behind.
       reader.stop("");
     }
+  }
+
+  /**
+   * @param {File} file
+   * @returns {Promise<Queries>}
+   */
+  async readScenario(file) {
+    const { width, height } = this.#model;
+    return this.#helper.ask({ type: "scenario", width, height, ...(await bytesOf(file)) });
   }
 
   /**

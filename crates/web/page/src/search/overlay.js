@@ -1,5 +1,6 @@
-// The values of the overlay: the clearance, the distances to the goal or the directions to it, and the cells
-// where the agent does not fit. They are computed in a worker of their own; the latest wish wins.
+// The values of the overlay: the clearance, the distances to the goal or the directions to it; the cells
+// where the agent does not fit; and without a path, the two parts of the map. They are computed in a worker
+// of their own; the latest wish wins.
 
 /** @import { Change, LaneSetup, Lanes, Model, Point } from "../../types.js" */
 import { Helper } from "./assistant.js";
@@ -18,20 +19,25 @@ const isLarge = ({ width, height }) => width * height > LARGE;
  * @typedef {object} Wished
  * @property {string} field
  * @property {string} narrow
+ * @property {string} parts
  * @property {"clearance" | "distances" | "flow" | ""} kind
  * @property {Readonly<LaneSetup>} setup
  * @property {number} radius
+ * @property {Point} start
  * @property {Point} goal
  */
 
-const NOTHING = { field: "", narrow: "" };
+const NOTHING = { field: "", narrow: "", parts: "" };
 
 export class Overlay {
   /** @type {Lanes["field"]} */
   field = null;
   /** @type {Uint8Array | null} */
   tooNarrow = null;
+  /** @type {Lanes["parts"]} */
+  parts = null;
   #model;
+  #isCut;
   #changed;
   #helper = new Helper();
   #feed;
@@ -47,10 +53,12 @@ export class Overlay {
 
   /**
    * @param {Model} model
+   * @param {() => boolean} isCut - Whether the active lane found no path to the goal.
    * @param {() => void} changed
    */
-  constructor(model, changed) {
+  constructor(model, isCut, changed) {
     this.#model = model;
+    this.#isCut = isCut;
     this.#changed = changed;
     this.#feed = new Feed(model);
     this.#isLarge = isLarge(model);
@@ -76,7 +84,7 @@ export class Overlay {
    * @returns {Wished}
    */
   #wish() {
-    const { overlay, lanes, active, radius, version, goal } = this.#model;
+    const { overlay, lanes, active, radius, version, start, goal } = this.#model;
     const kind = overlay === "clearance" || overlay === "distances" || overlay === "flow" ? overlay : "";
     const setup = lanes[active];
     const motion = setup ? motionKey(setup) : "";
@@ -84,9 +92,11 @@ export class Overlay {
     return {
       field: setup && kind && (kind === "clearance" ? `${kind} ${version}` : `${kind} ${goal} ${agent}`),
       narrow: setup && radius ? agent : "",
+      parts: setup && this.#isCut() ? `${start} ${goal} ${agent}` : "",
       kind,
       setup,
       radius,
+      start,
       goal,
     };
   }
@@ -94,11 +104,12 @@ export class Overlay {
   /** Asks for what is not there yet, if it is time. */
   update() {
     const wish = this.#wish();
-    if (!wish.field && !wish.narrow) {
+    if (!wish.field && !wish.narrow && !wish.parts) {
       this.#clear();
       return;
     }
-    const isShown = wish.field === this.#shown.field && wish.narrow === this.#shown.narrow;
+    const { field, narrow, parts } = this.#shown;
+    const isShown = wish.field === field && wish.narrow === narrow && wish.parts === parts;
     if (isShown || this.#isBusy) {
       return;
     }
@@ -113,8 +124,10 @@ export class Overlay {
 
   /** @param {Wished} wish */
   async #ask(wish) {
-    const { kind, setup, radius, goal } = wish;
-    const [needsField, needsNarrow] = [wish.field !== this.#shown.field, wish.narrow !== this.#shown.narrow];
+    const { kind, setup, radius, start, goal } = wish;
+    const [needsField, needsNarrow, needsParts] = /** @type {const} */ (["field", "narrow", "parts"]).map(
+      (part) => wish[part] !== this.#shown[part],
+    );
     const [news, map] = [this.#feed.take(), this.#maps];
     const began = performance.now();
     this.#isBusy = true;
@@ -123,22 +136,25 @@ export class Overlay {
       news,
       setup: { ...setup },
       radius,
+      start,
       goal,
       kind: needsField ? kind : /** @type {const} */ (""),
       narrow: needsNarrow,
+      parts: needsParts && wish.parts !== "",
     };
     try {
-      const { field, narrow } = await this.#helper.ask(request, buffersOf(news));
+      const { field, narrow, parts } = await this.#helper.ask(request, buffersOf(news));
       if (map === this.#maps) {
         this.field = needsField ? field : this.field;
         this.tooNarrow = needsNarrow ? narrow : this.tooNarrow;
-        this.#shown = { field: wish.field, narrow: wish.narrow };
+        this.parts = needsParts ? parts : this.parts;
+        this.#shown = wish;
       }
     } catch {
       // There is no field of this motion, or no memory for it. Nothing is shown; the lane says why.
       this.#feed.reset();
-      [this.field, this.tooNarrow] = [null, null];
-      this.#shown = { field: wish.field, narrow: wish.narrow };
+      this.field = this.tooNarrow = this.parts = null;
+      this.#shown = wish;
     }
     this.#isBusy = false;
     this.#took = performance.now() - began;
@@ -150,8 +166,8 @@ export class Overlay {
   #clear() {
     clearTimeout(this.#timer);
     this.#shown = NOTHING;
-    if (this.field || this.tooNarrow) {
-      [this.field, this.tooNarrow] = [null, null];
+    if (this.field || this.tooNarrow || this.parts) {
+      this.field = this.tooNarrow = this.parts = null;
       this.#changed();
     }
   }

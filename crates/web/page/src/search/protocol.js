@@ -1,7 +1,7 @@
 // The messages between the page and its workers, and the parts of a setup that both use. There is nothing
 // here that runs long: both sides import it.
 
-/** @import { Change, LaneAnswer, LaneSetup, LaneState, Motion, Point, Rect } from "../../types.js" */
+/** @import { Change, LaneAnswer, LaneSetup, LaneState, Model, Motion, Point, Rect } from "../../types.js" */
 /** @import { EngineInfo, Options, Waypoints } from "../../mediant/mediant.js" */
 import { bendsAtCorners, gapOf } from "../model/setups.js";
 
@@ -92,13 +92,16 @@ import { bendsAtCorners, gapOf } from "../model/setups.js";
  * @property {Point} goal
  * @property {"clearance" | "distances" | "flow" | ""} kind
  * @property {boolean} narrow - Whether to tell where the agent does not fit.
+ * @property {boolean} parts - Whether to tell what the start reaches, and what the goal.
+ * @property {Point} start
  */
 
 /**
- * A question for the cheapest path over N(k), with all that has changed of the map since the last one.
- * @typedef {object} CostWish
+ * A question for the best path of a setup, with all that has changed of the map since the last one.
+ * @typedef {object} RungWish
  * @property {MapNews} news
  * @property {LaneSetup} setup
+ * @property {string} engine - The one that is asked, in place of the setup's.
  * @property {number} radius
  * @property {Point} start
  * @property {Point} goal
@@ -107,11 +110,17 @@ import { bendsAtCorners, gapOf } from "../model/setups.js";
 /** @typedef {{ name: string, bytes: Uint8Array }} NamedBytes */
 
 /**
+ * A scenario, for a map of this size.
+ * @typedef {NamedBytes & { width: number, height: number }} ScenarioWish
+ */
+
+/**
  * A request to the helper.
  * @typedef {{ type: "moves", k: number } | { type: "check", setup: LaneSetup, onLand: boolean }
  *   | { type: "bounds", setup: LaneSetup, ks: number[] }
- *   | { type: "read", files: NamedBytes[] } | ({ type: "overlay" } & OverlayWish)
- *   | ({ type: "cost" } & CostWish)} Request
+ *   | { type: "read", files: NamedBytes[] } | ({ type: "scenario" } & ScenarioWish)
+ *   | ({ type: "overlay" } & OverlayWish)
+ *   | ({ type: "rung" } & RungWish)} Request
  */
 
 /** The most cells of a map that the page takes. */
@@ -144,6 +153,15 @@ export function optionsOf(setup) {
  */
 export function motionKey(setup) {
   return `${setup.k} ${setup.placement} ${setup.placement === "center" ? setup.corners : setup.gap}`;
+}
+
+/**
+ * A text that is the same for scenes with the same shortest path at any angle.
+ * @param {Model} model
+ * @param {Readonly<LaneSetup>} setup
+ */
+export function bestKey({ version, start, goal, radius, costs }, setup) {
+  return `${version} ${start} ${goal} ${radius} ${costs !== null} ${motionKey({ ...setup, k: "any" })}`;
 }
 
 /**

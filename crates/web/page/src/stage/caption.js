@@ -1,7 +1,6 @@
-// The caption of a pane: the lane's mark, engine, k, length and how it stands; and the sentences and the
-// legend that lie over its map.
+// The caption of a pane: the lane's mark, engine, k and how it stands; and the legend beside it.
 
-import { cells, count, engineName, kText, withNames } from "../panels/words.js";
+import { count, engineName, kText, sentenceOf } from "../panels/words.js";
 import { DASHES } from "./colors.js";
 
 /** @typedef {import("../../types.d.ts").LaneSetup} LaneSetup */
@@ -48,14 +47,6 @@ function statusOf({ phase, progress, expanded, answer, message }) {
   return "";
 }
 
-/** The pane's message if anything is wrong, as a sentence; empty if nothing is. @param {LaneState} state */
-export function sentenceOf({ phase, answer, message }) {
-  if (phase === "failed" || phase === "cancelled") return withNames(message);
-  if (phase !== "done" || !answer) return "";
-  if (answer.status === "invalid") return answer.error?.message ?? "The query is invalid.";
-  return answer.status === "unreachable" ? "No path leads to the goal." : "";
-}
-
 export class Caption {
   /** @param {Element} pane @param {() => void} chosen */
   constructor(pane, chosen) {
@@ -65,7 +56,6 @@ export class Caption {
     this.mark = element("span", "stage-mark", this.button);
     this.engine = element("span", "stage-engine", this.button);
     this.k = element("span", "stage-k", this.button);
-    this.length = element("span", "stage-length", this.button);
     this.status = element("span", "stage-status", this.button);
     this.bar = element("span", "stage-progress", this.button);
     this.lane = -1;
@@ -73,22 +63,16 @@ export class Caption {
   }
 
   /** @param {number} lane @param {LaneSetup} setup @param {LaneState | undefined} state @param {boolean}
-   *  isActive @param {boolean} hasArrived Whether the length is known in the race. */
-  update(lane, setup, state, isActive, hasArrived) {
+   *  isActive */
+  update(lane, setup, state, isActive) {
     if (lane !== this.lane) this.mark.innerHTML = mark(lane);
     this.lane = lane;
     say(this.engine, engineName(setup.engine));
     say(this.k, `k = ${kText(setup.k)}`);
-    const answer = state?.answer ?? null;
-    const isKnown = answer && (answer.status === "found" || answer.status === "nearest") && hasArrived;
-    const price = isKnown && answer.cost !== null ? `cost ${cells(answer.cost)}` : "";
-    say(this.length, price || (isKnown ? cells(answer.length) : ""));
     const status = state ? statusOf(state) : "starting";
     say(this.status, status);
-    // The parts of the caption are set apart by space alone: read out, "k = 3" and "74.43" were one number.
-    const name = [engineName(setup.engine), this.k.textContent, this.length.textContent, status]
-      .filter(Boolean)
-      .join(", ");
+    // The parts of the caption are set apart by space alone: read out, they were one word.
+    const name = [engineName(setup.engine), this.k.textContent, status].filter(Boolean).join(", ");
     if (this.name !== name) this.button.setAttribute("aria-label", name);
     this.name = name;
     this.button.classList.toggle("is-wrong", !!state && sentenceOf(state) !== "");
@@ -111,7 +95,8 @@ export class Legend {
   }
 
   /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
-   *  @param {{ search: "" | "tiles" | "marks" | "labels", isBeaten: boolean, onLand: boolean }} shown */
+   *  @param {{ search: "" | "tiles" | "marks" | "labels", isBeaten: boolean, isCut: boolean,
+   *  onLand: boolean }} shown */
   update(overlay, field, setup, shown) {
     const html = legendOf(overlay, field, setup, shown);
     if (html === this.key) return;
@@ -124,14 +109,24 @@ export class Legend {
 /** @param {number} value */
 const short = (value) => (value >= 100 ? value.toFixed(0) : String(Number(value.toPrecision(3))));
 
+/** What the start and the goal reach, where there is no path. */
+const PARTS = `<i class="stage-part"></i><span>start<b> reaches this</b></span>
+  <i class="stage-part is-goal"></i><span>goal<b> is in this</b></span>`;
+
 /** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup
- *  @param {{ search: string, isBeaten: boolean, onLand: boolean }} shown */
-function legendOf(overlay, field, setup, { search, isBeaten, onLand }) {
+ *  @param {{ search: string, isBeaten: boolean, isCut: boolean, onLand: boolean }} shown */
+function legendOf(overlay, field, setup, { search, isBeaten, isCut, onLand }) {
+  const what = onLand ? "over N(k)" : "at any angle";
+  const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
+  return `${isCut ? PARTS : optimum}${keysOf(overlay, field, setup, search, onLand)}`;
+}
+
+/** @param {Overlay} overlay @param {Lanes["field"]} field @param {LaneSetup} setup @param {string} search
+ *  @param {boolean} onLand */
+function keysOf(overlay, field, setup, search, onLand) {
   if (overlay === "search" && search) {
-    const what = onLand ? "over N(k)" : "at any angle";
-    const optimum = isBeaten ? `<i class="stage-optimum"></i><span>shortest<b> ${what}</b></span>` : "";
-    if (search === "labels") return `${optimum}<span>no search: hub labels</span>`;
-    return `${optimum}<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>
+    if (search === "labels") return "<span>no search: hub labels</span>";
+    return `<span>expanded<b> first</b></span><i class="stage-scale is-${search}"></i><b>last</b>
       <i class="stage-tile"></i><span>open</span>`;
   }
   if (field && field.kind === overlay) {

@@ -13,6 +13,7 @@
  * @property {number} wall As a pixel.
  * @property {number} wallInField Walls between colors, as a pixel.
  * @property {Uint32Array} land From the cheapest to the dearest, as pixels; 0 for that of free cells.
+ * @property {number[]} parts What the start reaches, what the goal reaches, and its stripes, as pixels.
  * @property {Uint32Array} field From least to greatest, as pixels.
  */
 
@@ -41,6 +42,9 @@ const NAMES = [
   "land-grass",
   "land-forest",
   "land-swamp",
+  "part-start",
+  "part-goal",
+  "part-stripe",
 ];
 
 /** The figures' scale of a field: its lightness falls evenly, so that the order is seen without hues. */
@@ -126,6 +130,7 @@ export function readTheme(element) {
     wall: pixelOf("wall"),
     wallInField: pixelOf("stage-wall-in-field"),
     land: Uint32Array.from([0, ...["land-grass", "land-forest", "land-swamp"].map(pixelOf)]),
+    parts: ["part-start", "part-goal", "part-stripe"].map(pixelOf),
     field: ramp(SCALE.map(parse)),
   };
 }

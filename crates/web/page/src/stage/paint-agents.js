@@ -6,6 +6,8 @@
 /** @typedef {import("./colors.js").Theme} Theme */
 
 const FLASH = 600;
+/** The least radius of an agent, and the largest one of a point, in pixels of the page. */
+const [LEAST, MOST] = [6.5, 11];
 
 export class Agents {
   /** The time at which each fresh agent became so. @type {WeakMap<Agent, number>} */
@@ -23,7 +25,7 @@ export class Agents {
     context.save();
     drawWays(context, frame, list, ways, look.shift, theme);
     const own = look.radius > 0 ? look.radius : 0.32;
-    const radius = Math.max(3.25 * dpr, Math.min(look.radius > 0 ? Infinity : 9 * dpr, own * scale));
+    const radius = Math.max(LEAST * dpr, Math.min(look.radius > 0 ? Infinity : MOST * dpr, own * scale));
     let isFlashing = false;
     list.forEach((agent, i) => {
       const x = frame.left + agent.x * scale;
@@ -63,7 +65,7 @@ export class Agents {
 function drawWays(context, frame, list, ways, shift, theme) {
   context.strokeStyle = theme.css.agent;
   context.globalAlpha = Math.max(0.2, Math.min(0.6, 20 / list.length));
-  context.lineWidth = 1.25 * frame.dpr;
+  context.lineWidth = 1.75 * frame.dpr;
   context.lineJoin = "round";
   list.forEach(({ x, y, path, state }, n) => {
     if (state !== "walking" || path.length < 2) return;
@@ -90,12 +92,22 @@ function drawAgent(context, [x, y], radius, state, heading, theme, dpr) {
   } else {
     context.arc(x, y, radius, 0, 7);
   }
+  context.globalAlpha = state === "arrived" ? 0.6 : 1;
+  // Two rims, a dark and a light one: on any ground one of them stands out.
+  context.lineJoin = "round";
+  for (const [color, width] of /** @type {const} */ ([
+    [theme.css.text, 5],
+    [theme.css.page, 3],
+  ])) {
+    context.strokeStyle = color;
+    context.lineWidth = width * dpr;
+    context.stroke();
+  }
   context.fillStyle = state === "stuck" ? theme.css.page : theme.css.agent;
-  context.globalAlpha = state === "arrived" ? 0.45 : 1;
   context.fill();
-  context.strokeStyle = state === "stuck" ? theme.css.danger : theme.css.page;
-  context.lineWidth = (state === "stuck" ? 2 : 1.25) * dpr;
-  context.stroke();
+  context.strokeStyle = theme.css.danger;
+  context.lineWidth = 2 * dpr;
+  if (state === "stuck") context.stroke();
   if (state === "stuck") {
     const side = 0.45 * radius;
     context.beginPath();

@@ -7,9 +7,14 @@ import { DASHES } from "./colors.js";
 /** @typedef {import("../../types.d.ts").Rect} Rect */
 /** @typedef {import("./view.js").Frame} Frame */
 /** @typedef {import("./colors.js").Theme} Theme */
+/** @typedef {{ lane: number, shift: number, radius: number, isFaint: boolean }} Look */
 
 /** The radius of the badges of start and goal, in pixels of the page. */
-const BADGE = 11;
+export const BADGE = 11;
+/** The width of the optimum, of that of a path: both are seen where they lie on each other. */
+const OPTIMUM = 0.5;
+/** The opacity of the area between a path and the optimum. */
+const AREA = 0.2;
 const FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, Helvetica, Arial, sans-serif';
 
 /** @param {CanvasRenderingContext2D} context @param {Frame} frame @param {ArrayLike<number>} points
@@ -24,16 +29,18 @@ function trace(context, frame, points, shift) {
   }
 }
 
+/** The width of a path. @param {Frame} frame */
+const widthAt = ({ scale, dpr }) => Math.min(4.5, Math.max(3.25, 2.5 + scale / dpr / 12)) * dpr;
+
 /** The path of a lane: a rim in the color of the page, the lane's color and dashes, and dots where it turns.
  *  `shift`: of a vertex from the corner of its cell. `radius`: of the agent, in cells.
- *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {LaneAnswer} answer
- *  @param {{ lane: number, shift: number, radius: number, isFaint: boolean }} look @param {Theme} theme */
-export function drawPath(context, frame, answer, look, theme) {
-  const { path } = answer;
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {ArrayLike<number>} path
+ *  @param {Look} look @param {Theme} theme */
+export function drawPath(context, frame, path, look, theme) {
   if (path.length < 4) return;
   const { dpr, scale } = frame;
   const color = theme.lanes[look.lane % 4];
-  const width = Math.min(4.5, Math.max(2.75, 2.25 + scale / dpr / 12)) * dpr;
+  const width = widthAt(frame);
   context.save();
   context.lineJoin = "round";
   context.lineCap = "round";
@@ -63,15 +70,41 @@ export function drawPath(context, frame, answer, look, theme) {
   context.restore();
 }
 
-/** The optimum, where the lane's path is longer: dotted, below that path.
- *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {LaneAnswer} answer
- *  @param {number} shift @param {Theme} theme */
-export function drawOptimum(context, frame, answer, shift, theme) {
-  if (!isBeaten(answer) || !answer.reference) return;
+/** How far a path is from the optimum: the area between them, and a rim around the optimum. Below the path.
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {ArrayLike<number>} path
+ *  @param {ArrayLike<number>} optimum @param {Look} look @param {Theme} theme */
+export function drawApart(context, frame, path, optimum, { lane, shift }, theme) {
   context.save();
-  trace(context, frame, answer.reference.path, shift);
-  dot(context, frame, theme.css.page, theme.css.reference);
+  context.lineJoin = "round";
+  trace(context, frame, [...Array.from(path), ...reversed(optimum)], shift);
+  context.globalAlpha = AREA;
+  context.fillStyle = theme.lanes[lane % 4];
+  context.fill();
+  context.globalAlpha = 1;
+  trace(context, frame, optimum, shift);
+  context.strokeStyle = theme.css.page;
+  context.lineWidth = OPTIMUM * widthAt(frame) + 3.5 * frame.dpr;
+  context.stroke();
   context.restore();
+}
+
+/** The optimum, where the lane's path is longer: a line above that path, thinner than it.
+ *  @param {CanvasRenderingContext2D} context @param {Frame} frame @param {ArrayLike<number>} optimum
+ *  @param {number} shift @param {Theme} theme */
+export function drawOptimum(context, frame, optimum, shift, theme) {
+  context.save();
+  context.lineJoin = "round";
+  context.lineCap = "round";
+  trace(context, frame, optimum, shift);
+  context.strokeStyle = theme.css.reference;
+  context.lineWidth = OPTIMUM * widthAt(frame);
+  context.stroke();
+  context.restore();
+}
+
+/** The points of a path from its end. @param {ArrayLike<number>} path */
+function reversed(path) {
+  return Array.from(path, (_, i) => path[path.length - 2 - i + 2 * (i % 2)]);
 }
 
 /** Whether the optimum is shorter than the lane's path: by more than sums of roots differ by rounding.
@@ -97,7 +130,7 @@ function dot(context, { dpr }, rim, color) {
 }
 
 /** Dots at the waypoints, if they are well apart. @param {CanvasRenderingContext2D} context @param {Frame}
- *  frame @param {import("../../types.d.ts").LaneAnswer["path"]} path @param {number} shift @param {number}
+ *  frame @param {ArrayLike<number>} path @param {number} shift @param {number}
  *  width @param {string} color @param {string} rim */
 function drawTurns(context, frame, path, shift, width, color, rim) {
   const { left, top, scale, dpr } = frame;

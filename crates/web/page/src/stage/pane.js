@@ -4,15 +4,26 @@
 
 import { bendsAtCorners } from "../model/setups.js";
 import { engineName, hasNoSearch, kText } from "../panels/words.js";
-import { Caption, element, Legend, sentenceOf } from "./caption.js";
+import { Caption, element, Legend } from "./caption.js";
+import { Glide } from "./glide.js";
 import { SearchHeat } from "./heat.js";
 import { Agents } from "./paint-agents.js";
 import { FieldPainter } from "./paint-field.js";
 import { drawBorder, drawGridLines, Hatch, mapBox } from "./paint-map.js";
-import { drawBadge, drawCells, drawMissing, drawOptimum, drawPath, isBeaten } from "./paint-path.js";
+import { Parts } from "./paint-parts.js";
+import {
+  drawApart,
+  drawBadge,
+  drawCells,
+  drawMissing,
+  drawOptimum,
+  drawPath,
+  isBeaten,
+} from "./paint-path.js";
 import { Rules } from "./paint-rules.js";
 
 /** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("../../types.d.ts").LaneAnswer} LaneAnswer */
 /** @typedef {import("../../types.d.ts").Rect} Rect */
 /** @typedef {import("./view.js").Frame} Frame */
 
@@ -29,6 +40,8 @@ export class Pane {
   #hatch = new Hatch();
   #rules = new Rules();
   #agents = new Agents();
+  #glide = new Glide();
+  #parts = new Parts();
   /** Whether the optimum is shorter than the path. */
   #isBeaten = false;
   #dirty = { ground: true, walls: true, top: true, text: true };
@@ -50,7 +63,6 @@ export class Pane {
     this.surface.setAttribute("aria-describedby", stage.helpId);
     const make = (/** @type {string} */ name) => newLayer(this.surface, name);
     this.#layers = { ground: make("ground"), walls: make("walls"), top: make("top") };
-    this.note = element("p", "stage-note", this.surface);
     this.width = 1;
     this.height = 1;
   }
@@ -140,7 +152,7 @@ export class Pane {
 
   /** @param {[number, number] | null} rows Only these rows of vertices. */
   #drawGround(rows) {
-    const { model, theme } = this.stage;
+    const { model, theme, lanes } = this.stage;
     const { frame } = this;
     const context = this.#layers.ground;
     const box = mapBox(frame, model);
@@ -164,6 +176,7 @@ export class Pane {
     const { land } = this.stage;
     if (!field || field.kind === "flow") land.draw(context, frame);
     if (field) this.#field.drawColors(context, frame, field, theme);
+    else if (lanes.parts && this.#isActive) this.#parts.draw(context, frame, lanes.parts, theme);
     // The land shines through the search.
     context.globalAlpha = land.isShown ? OVER_LAND : 1;
     if (!this.#heat.isSparse) this.#heat.draw(context, frame, this.#searchedShift - 0.5, drawn);
@@ -208,20 +221,34 @@ export class Pane {
     const answer = this.state?.answer;
     context.clearRect(0, 0, frame.width, frame.height);
     this.#heat.drawMarks(context, frame, this.#searchedShift - 0.5);
-    if (answer && player.arrived(this.lane) && answer.status !== "invalid") {
-      const look = { lane: this.lane, shift, radius: model.radius, isFaint: this.#isFaint(now) };
-      if (answer.status === "nearest") drawMissing(context, frame, answer, shift, theme);
-      drawOptimum(context, frame, answer, shift, theme);
-      drawPath(context, frame, answer, look, theme);
-    }
     let isMoving = false;
+    if (answer && player.arrived(this.lane) && answer.status !== "invalid") {
+      if (answer.status === "nearest") drawMissing(context, frame, answer, shift, theme);
+      isMoving = this.#drawPaths(answer, now);
+    }
     if (this.#isActive) {
       const look = { shift, radius: model.radius };
-      isMoving = this.#agents.draw(context, frame, walkers, look, theme, now);
+      isMoving = this.#agents.draw(context, frame, walkers, look, theme, now) || isMoving;
     }
     this.#drawCursor(context);
     this.#drawEnds(context);
+    this.stage.placeCalls(this);
     if (isMoving) this.#dirty.top = true;
+    return isMoving;
+  }
+
+  /** The path, and the optimum where it is shorter. Returns whether the path still moves.
+   *  @param {LaneAnswer} answer @param {number} now */
+  #drawPaths(answer, now) {
+    const { model, theme, glides } = this.stage;
+    const { frame, shift } = this;
+    const context = this.#layers.top;
+    const { path, isMoving } = this.#glide.at(answer.path, glides, now);
+    const look = { lane: this.lane, shift, radius: model.radius, isFaint: this.#isFaint(now) };
+    const optimum = answer.reference && (isMoving || isBeaten(answer)) ? answer.reference.path : null;
+    if (optimum) drawApart(context, frame, path, optimum, look, theme);
+    drawPath(context, frame, path, look, theme);
+    if (optimum) drawOptimum(context, frame, optimum, shift, theme);
     return isMoving;
   }
 
@@ -264,11 +291,8 @@ export class Pane {
   #write() {
     const { model, player, lanes } = this.stage;
     const { state, setup } = this;
-    this.caption.update(this.lane, setup, state, this.#isActive, player.arrived(this.lane));
+    this.caption.update(this.lane, setup, state, this.#isActive);
     this.root.classList.toggle("is-active", this.#isActive && model.lanes.length > 1);
-    const sentence = state ? sentenceOf(state) : "";
-    if (this.note.textContent !== sentence) this.note.textContent = sentence;
-    this.note.hidden = sentence === "";
     const hasSearch = !!state?.answer?.steps?.length;
     const isHere = this.#isActive || model.overlay === "rules";
     /** @type {"" | "tiles" | "marks" | "labels"} */
@@ -278,7 +302,8 @@ export class Pane {
     if (answer && (answer.reference || !answer.path.length)) this.#isBeaten = isBeaten(answer);
     const { legend } = this;
     const onLand = model.costs !== null;
-    const shown = { search, isBeaten: this.#isBeaten, onLand };
+    const isCut = !!lanes.parts && this.#isActive;
+    const shown = { search, isBeaten: this.#isBeaten && player.arrived(this.lane), isCut, onLand };
     legend.update(isHere ? model.overlay : "none", lanes.field, setup, shown);
     const label = `Map, lane ${this.lane + 1}: ${engineName(setup.engine)}, k = ${kText(setup.k)}`;
     if (this.surface.getAttribute("aria-label") !== label) this.surface.setAttribute("aria-label", label);

@@ -1,4 +1,5 @@
-// The playback of the searches: all lanes expand at the same pace, or as fast as they were.
+// The playback of the searches: all lanes expand at the same pace, or as fast as they were. It dispatches
+// `use` when somebody plays.
 
 /** @typedef {import("../../types.d.ts").Player} Contract */
 /** @typedef {import("../../types.d.ts").Lanes} Lanes */
@@ -42,6 +43,8 @@ export class Player extends EventTarget {
   #speed = 0;
   #position = 0;
   #isPlaying = false;
+  /** Whether it plays as soon as all lanes have ended. */
+  #isAwaited = false;
   /** The time of the last tick. */
   #last = 0;
   /** The paths and steps that were seen last. @type {unknown[]} */
@@ -96,7 +99,17 @@ export class Player extends EventTarget {
     return length;
   }
 
+  /** Plays from the beginning, when all lanes have ended: a race. */
+  start() {
+    this.#isPlaying = false;
+    this.#isAwaited = true;
+    this.#position = 0;
+    this.#begin();
+    this.#changed();
+  }
+
   play() {
+    this.#use();
     if (this.#isPlaying || this.length === 0) return;
     if (this.#position >= this.length) this.#position = 0;
     this.#isPlaying = true;
@@ -118,6 +131,7 @@ export class Player extends EventTarget {
 
   /** @param {number} by */
   step(by) {
+    this.#use();
     this.#isPlaying = false;
     if (this.#mode === "pace") return this.seek(Math.round(this.#position) + by);
     // One expansion of the lane that made most of them.
@@ -127,6 +141,7 @@ export class Player extends EventTarget {
 
   /** @param {number} position */
   seek(position) {
+    this.#use();
     this.#position = Math.min(this.length, Math.max(0, position));
     this.#changed();
   }
@@ -172,13 +187,27 @@ export class Player extends EventTarget {
     this.#changed();
   }
 
+  #use() {
+    this.#isAwaited = false;
+    this.dispatchEvent(new Event("use"));
+  }
+
+  /** Starts the race that was awaited, if no lane is under way any more. */
+  #begin() {
+    const { list } = this.#lanes;
+    if (!this.#isAwaited || !list.every(hasEnded)) return;
+    this.#position = 0;
+    this.play();
+  }
+
   /** Shows a new answer whole, unless somebody plays. A reference that comes later is no new answer. */
   #follow() {
+    this.#begin();
     const seen = this.#lanes.list.flatMap(({ answer }) => [answer?.path, answer?.steps]);
     if (seen.length === this.#seen.length && seen.every((part, i) => part === this.#seen[i])) return;
     this.#seen = seen;
     if (this.#isPlaying) this.#position = Math.min(this.#position, this.length);
-    else this.#position = this.length;
+    else this.#position = this.#isAwaited ? 0 : this.length;
     this.#changed();
   }
 
@@ -191,3 +220,6 @@ export class Player extends EventTarget {
 function expansions(answer) {
   return answer.steps ? expansionEnds(answer.steps).length : answer.expanded;
 }
+
+/** @param {import("../../types.d.ts").LaneState} lane */
+const hasEnded = ({ phase, stale }) => !stale && ["done", "failed", "cancelled"].includes(phase);

@@ -1,6 +1,7 @@
 // The stage: one pane for each lane, with one view of the map for all. It follows the scene, the answers and
 // the player, and draws at most once a frame.
 
+import { Calls } from "./calls.js";
 import { element } from "./caption.js";
 import { readTheme, watchTheme } from "./colors.js";
 import { Keyboard } from "./keyboard.js";
@@ -44,12 +45,16 @@ export class Stage extends EventTarget {
   /** Cells under the brush, or of a rectangle to come; all panes show what is shared.
    *  @type {{ rect: Rect, pane: Pane, isErasing: boolean, isShared: boolean } | null} */
   preview = null;
+  /** Whether a path turns slowly into another one. */
+  glides = false;
   helpId = "stage-help";
   /** @type {Tool} */
   #tool = "move";
   #brush = 0;
   #frame = 0;
   #size = [0, 0];
+  /** @type {Calls | undefined} */
+  #calls;
 
   /** @param {HTMLElement} root @param {Model} model @param {Lanes} lanes @param {Player} player
    *  @param {Walkers} walkers */
@@ -97,6 +102,17 @@ export class Stage extends EventTarget {
     if (brush === this.#brush) return;
     this.#brush = brush;
     this.dispatchEvent(new Event("tool"));
+  }
+
+  /** Whether the ends are called to be dragged. @param {boolean} shown */
+  set calls(shown) {
+    this.#calls = shown ? new Calls(this.panes[0].surface) : this.#calls?.remove();
+    this.soil("top");
+  }
+
+  /** @param {Pane} pane */
+  placeCalls(pane) {
+    if (pane === this.panes[0]) this.#calls?.place(pane, this.model);
   }
 
   get frames() {
