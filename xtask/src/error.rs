@@ -72,7 +72,7 @@ pub enum Error {
     Said {
         /// Its output.
         said: String,
-        /// What its page has.
+        /// The words of its page.
         expected: String,
     },
     /// A tool or crate that a chore needs and this machine lacks.

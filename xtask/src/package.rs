@@ -105,8 +105,8 @@ pub(crate) fn write_workspace(folder: &Path, members: &[(String, String)]) -> Re
     write_manifest(folder, &workspace(members))
 }
 
-/// Writes the `Cargo.toml` of a folder, and a lock beside it: the versions of other crates that the project is
-/// tested with, so that no network is needed.
+/// Writes the `Cargo.toml` of a folder, and a lock beside it: the versions of other crates that the project
+/// is tested with, so that no network is needed.
 ///
 /// # Errors
 /// [`Error::Io`] for these files.
@@ -121,7 +121,7 @@ fn workspace(members: &[(String, String)]) -> String {
     format!("[workspace]\nresolver = \"3\"\nmembers = {folders:?}\n\n{}", patches(members))
 }
 
-/// What lets packages depend on one another, and not on what a registry has.
+/// The lines by which packages depend on one another, and not on what a registry has.
 pub(crate) fn patches(members: &[(String, String)]) -> String {
     let mut text = "[patch.crates-io]\n".to_owned();
     for (name, folder) in members {

@@ -129,7 +129,7 @@ pub enum CompareError {
     Peers {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// In words, the fault.
         wrong: String,
     },
     /// One of our engines that cannot do a map alone.

@@ -120,7 +120,7 @@ impl<'a> Peers<'a> {
         table
     }
 
-    /// What each program is, and what it prepares: geometric means over maps.
+    /// The version of each program, and its preparation: geometric means over maps.
     fn programs(&self) -> Table {
         let heading =
             ["program", "version", "maps", "prepared, s", "size, MB", "paths that are not shortest"];

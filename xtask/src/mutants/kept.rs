@@ -47,7 +47,7 @@ pub(super) fn read(
 /// Writes the file.
 ///
 /// # Errors
-/// Those of the file system.
+/// Errors of the file system.
 pub(super) fn write(
     path: &Path,
     mutants: &[Mutant],
@@ -70,7 +70,7 @@ fn by_file(mutants: &[Mutant]) -> BTreeMap<&str, Vec<&Mutant>> {
     files
 }
 
-/// A digest of a file's code and of the keys of its mutants: another version of cargo-mutants may list others.
+/// A digest of a file's code and of its mutants' keys: another version of cargo-mutants may list others.
 fn digest(own: &[&Mutant], sources: &HashMap<&str, String>) -> String {
     let code = own.first().and_then(|mutant| sources.get(&*mutant.file)).map_or("", String::as_str);
     hex(own.iter().fold(Sha256::new().chain_update(code), |digest, mutant| digest.chain_update(mutant.key())))

@@ -20,7 +20,7 @@ use crate::{
 /// Makes the files of a world in `into`.
 ///
 /// # Errors
-/// Those of the chores that make them.
+/// As for the chores that make them.
 pub(super) fn make(world: World, into: &Path, version: &str) -> Result<(), Error> {
     match world {
         // The program needs the other crates, too.

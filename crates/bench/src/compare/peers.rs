@@ -2,10 +2,10 @@
 //!
 //! **The key decision: everyone runs alone, and alike.** A program answers the queries of a map in a process
 //! of its own, on one core, pass after pass. So does each of our engines: this program runs itself
-//! ([`alone`]). Rounds of all are in turn, in another order each time, and the median of the rounds counts. So
-//! nobody finds the caches of another, and a drift of the machine affects all.
+//! ([`alone`]). Rounds of all are in turn, in another order each time, and the median of the rounds counts.
+//! So nobody finds the caches of another, and a drift of the machine affects all.
 //!
-//! What a program has to take and to say is in [`report`]; `DIR/peers.json` names the programs
+//! The words that a program takes and says are in [`report`]; `DIR/peers.json` names the programs
 //! ([`Peer`](list::Peer)). None comes with this project.
 //!
 //! Outcomes are kept in `target/compare` while the revision is the same, so that a run goes on where it was

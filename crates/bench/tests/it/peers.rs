@@ -1,5 +1,6 @@
 //! `compare --peers`: programs that run alone, as a folder names them.
 #![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::{
     fs,

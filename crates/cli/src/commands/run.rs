@@ -72,11 +72,7 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
     };
     // Lines on the screen show progress themselves, and a bar would break them.
     let lines_on_screen = args.format != Format::Table && io::stdout().is_terminal();
-    let mut report: Box<dyn Report> = match args.format {
-        Format::Jsonl => Box::new(Jsonl::new(screen, lines_on_screen)),
-        Format::Csv => Box::new(Csv::new(screen)),
-        Format::Table => Box::new(TableReport::new(screen)),
-    };
+    let mut report = report(args.format, screen, lines_on_screen);
     let session = Session {
         queries: &queries,
         report: &mut *report,
@@ -97,6 +93,15 @@ pub(crate) fn run(args: &RunArgs, screen: &mut Screen) -> Result<Ending, Failure
         }
     }
     Ok(ending(&queries, finished, args.require_path))
+}
+
+/// A report in this format; `watched`: on a terminal.
+fn report(format: Format, screen: &mut Screen, watched: bool) -> Box<dyn Report + '_> {
+    match format {
+        Format::Jsonl => Box::new(Jsonl::new(screen, watched)),
+        Format::Csv => Box::new(Csv::new(screen)),
+        Format::Table => Box::new(TableReport::new(screen)),
+    }
 }
 
 /// The map with its costs, if it has any; refuses options that have no meaning then.

@@ -9,6 +9,7 @@ mod check;
 mod common;
 mod convert;
 mod costs;
+mod csv;
 mod edits;
 mod errors;
 mod grounds;

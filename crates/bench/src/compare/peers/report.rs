@@ -1,4 +1,4 @@
-//! What a program takes, and what it says.
+//! The words that a program takes and says.
 //!
 //! It is called as `PROGRAM … MAP SCENARIO PASSES SECONDS`. MAP is a MovingAI map of `.` and `@` alone,
 //! SCENARIO has its queries; between corners, (x, y) is the corner at the top left of that cell. The program
@@ -13,7 +13,7 @@
 
 use std::{fmt, str::FromStr};
 
-/// What a program said of a map.
+/// The answer of a program on a map.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(in super::super) struct Report {
     /// The seconds of its preparation, and the bytes that it takes.

@@ -28,7 +28,7 @@ impl Key {
     }
 }
 
-/// What came of it.
+/// Its outcome.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Outcome {
     Measured(Figures),
