@@ -11,9 +11,10 @@
 //! mutant it has to fail somewhere else then.
 //!
 //! Outcomes are kept in `target/mutants` while the file of the mutant is the same, so that a run goes on
-//! where it was; `--again` tries those that survived, with the tests of today. `--record` writes the counts
-//! to `docs/proof/mutants.json`, and the outcomes beside it (`kept`), where another machine finds them. Each
-//! survivor is explained in `mutants/explained.json`, or the run says that it is not.
+//! where it was, and at the end of a run in `docs/proof/mutants.tsv` (`kept`), where another machine finds
+//! them. `--again` tries those that survived, with the tests of today. `--record` writes the counts to
+//! `docs/proof/mutants.json`, once all were tried. Each survivor is explained in `mutants/explained.json`, or
+//! the run says that it is not.
 
 mod kept;
 mod list;
@@ -66,7 +67,7 @@ pub struct Options {
     /// Try those again that survived without a reason, or to which no test came
     #[arg(long)]
     again: bool,
-    /// Write docs/proof/mutants.json, and the outcomes beside it
+    /// Write the counts to docs/proof/mutants.json
     #[arg(long)]
     record: bool,
 }
@@ -101,9 +102,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let mut known = kept::read(&kept_file, &mutants, &sources);
     known.extend(outcomes(&file, &sources));
     let tell = |known: &HashMap<String, Outcome>| {
-        if options.record {
-            kept::write(&kept_file, &mutants, &sources, known).map_err(Error::at(&kept_file))?;
-        }
+        kept::write(&kept_file, &mutants, &sources, known).map_err(Error::at(&kept_file))?;
         record::tell(&mutants, known, options.record)
     };
     if options.minutes == Some(0.0) {
