@@ -43,13 +43,13 @@ const MODULES: [Module; 2] = [
         folder: "",
         profile: "web",
         features: &[],
-        most: (1_118_000, "the page is to be there within a second"),
+        most: (1_118_000, "the page is whole when it has come"),
     },
     Module {
         folder: "light",
         profile: "web-light",
         features: &["--no-default-features"],
-        most: (294_500, "games load it before they begin"),
+        most: (294_500, "games load it before they begin, and the page before its first path"),
     },
 ];
 

@@ -74,13 +74,16 @@ export class Site {
   }
 
   /**
-   * The page, when its first path is there.
+   * The page, when its first path and all engines are there.
    * @param {Look & { hash?: string, context?: Context, start?: boolean }} [look] `start` false does not wait
    */
   async open({ hash = "", context, start = true, ...look } = {}) {
     const page = await (context ?? (await this.context(look))).newPage();
     await page.goto(this.address + hash);
-    if (start) await settled(page);
+    if (start) {
+      await settled(page);
+      await whole(page);
+    }
     return page;
   }
 
@@ -127,6 +130,16 @@ export async function settled(page, timeout = 20_000) {
     undefined,
     { timeout },
   );
+}
+
+/** Waits until all engines are there, and have answered what the first few have. @param {Page} page */
+export async function whole(page) {
+  await page.waitForFunction(() => {
+    const { list, engines } = /** @type {any} */ (globalThis).mediant.lanes;
+    const isOwn = (/** @type {any} */ { index, answer, phase }) => (index || !answer) && phase !== "starting";
+    return engines.length > 6 && list.every(isOwn);
+  });
+  await settled(page);
 }
 
 /** Keeps a picture of the page. @param {Page} page @param {string} name */

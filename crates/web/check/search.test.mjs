@@ -7,9 +7,9 @@ import { test } from "node:test";
 import { Random } from "../page/src/model/generate/random.js";
 import { errandOf, mayWalk, need, newAgent, take } from "../page/src/search/agent.js";
 import { copy, Feed, union } from "../page/src/search/feed.js";
-import { PATIENCE, PAUSE, PREPARING, QUICK, whatNow } from "../page/src/search/lane.js";
 import { motionKey, motionOf, optionsOf, setupKey } from "../page/src/search/protocol.js";
 import { advance, meets, placesAround, rest } from "../page/src/search/walk.js";
+import { PATIENCE, PAUSE, PREPARING, QUICK, whatNow } from "../page/src/search/when.js";
 
 const SEED = Number(process.env.SEED ?? 1);
 

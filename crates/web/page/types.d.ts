@@ -192,11 +192,11 @@ export interface LaneState {
 /** search/lanes.js: follows the model; each lane has a worker of its own. Dispatches `change` with
  *  `{ lane: number }`, `{ overlay: true }` or `{ ladder: true }` as `detail`. */
 export interface Lanes extends EventTarget {
-  /** Fulfilled when the engines can be asked. */
+  /** Fulfilled when all engines can be asked. */
   readonly ready: Promise<void>;
   /** One for each lane of the model. */
   readonly list: readonly LaneState[];
-  /** All engines; empty before `ready`. */
+  /** All engines; before `ready` none, or those of the light package. */
   readonly engines: readonly EngineInfo[];
   /** The moves of N(k), x, y, … in angular order. */
   moves(k: number): Promise<Int32Array>;

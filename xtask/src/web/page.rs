@@ -24,8 +24,12 @@ const UNVERSIONED: &str = "const VERSION = \"\";";
 const SOURCE_MAP: &str = ".js.map";
 /// The files beside the sources that go into the page as they are.
 const AS_IT_IS: [&str; 3] = ["icon.svg", "manifest.webmanifest", WORKER];
+/// The light module: the engines that the first path needs.
+const LIGHT: &str = "light_bg.wasm";
+/// All engines, which are fetched after the first path.
+const WHOLE: &str = "mediant_bg.wasm";
 /// The most bytes of all files that the first path needs, as they travel from any server of files.
-const LARGEST: usize = 1_190_000;
+const LARGEST: usize = 405_000;
 
 /// Bundles the page with the package that lies in the folder `web`, and writes it there. Returns its version.
 pub(super) fn write(esbuild: &Path, web: &Path) -> Result<String, Error> {
@@ -33,7 +37,7 @@ pub(super) fn write(esbuild: &Path, web: &Path) -> Result<String, Error> {
     let mut files = Vec::new();
     let own = root().join("crates/web/page");
     take(&own, "", |path| !["mediant/", "maps/"].iter().any(|out| path.starts_with(out)), &mut files)?;
-    take(&package, "mediant/", |path| path == "mediant.js", &mut files)?;
+    take(&package, "mediant/", |path| path.ends_with("mediant.js"), &mut files)?;
     write_folder(&sources, &files)?;
     if bundled.exists() {
         fs::remove_dir_all(&bundled).map_err(Error::at(&bundled))?;
@@ -42,8 +46,11 @@ pub(super) fn write(esbuild: &Path, web: &Path) -> Result<String, Error> {
 
     let mut files = vec![File { path: HEAD.to_owned(), bytes: head(&own, &bundled)?.into_bytes() }];
     take(&own, "", |path| AS_IT_IS.contains(&path), &mut files)?;
-    for (folder, name) in [(&bundled, "page.js"), (&bundled, "worker.js"), (&package, "mediant_bg.wasm")] {
-        files.push(packed(&File::read(&folder.join(name), name)?)?);
+    for name in ["page.js", "worker.js"] {
+        files.push(packed(&File::read(&bundled.join(name), name)?)?);
+    }
+    for (from, name) in [("light/mediant_bg.wasm", LIGHT), ("mediant_bg.wasm", WHOLE)] {
+        files.push(packed(&File::read(&package.join(from), name)?)?);
     }
     for name in ["page.js.map", "worker.js.map"] {
         files.push(File::read(&bundled.join(name), name)?);
@@ -102,9 +109,11 @@ fn set_version(files: &mut [File], path: &str, mark: &str, versioned: &str) -> R
     Ok(())
 }
 
-/// Prints what the first path needs: the head, the scripts and the engines.
+/// Prints what the first path needs: the head, the scripts and the light module.
 fn weigh(files: &[File]) -> Result<(), Error> {
-    let needed = files.iter().filter(|file| file.path == HEAD || file.path.ends_with(".gz"));
+    let is_late = |path: &str| path.strip_suffix(".gz") == Some(WHOLE);
+    let is_needed = |path: &str| path == HEAD || (path.ends_with(".gz") && !is_late(path));
+    let needed = files.iter().filter(|file| is_needed(&file.path));
     let bytes = needed.map(|file| file.bytes.len()).sum();
     println!("The page: {bytes} bytes until the first path");
     if bytes > LARGEST {

@@ -34,10 +34,15 @@ test("maps and engines are there as they are, and nothing that no browser needs"
   const maps = join(ROOT, "crates/cli/maps");
   const names = filesOf(maps).filter((path) => path.endsWith(".map"));
   for (const name of names) assert.equal(read(`maps/${name}`), readFileSync(join(maps, name), "utf8"), name);
-  const engines = gunzipSync(readFileSync(join(PAGE, "mediant_bg.wasm.gz")));
-  assert.ok(engines.equals(readFileSync(join(PACKAGE, "mediant_bg.wasm"))));
+  for (const [packed, module] of [
+    ["light_bg.wasm.gz", "light/mediant_bg.wasm"],
+    ["mediant_bg.wasm.gz", "mediant_bg.wasm"],
+  ]) {
+    const engines = gunzipSync(readFileSync(join(PAGE, packed)));
+    assert.ok(engines.equals(readFileSync(join(PACKAGE, module))), packed);
+  }
   const own = ["index.html", "offline.js", "files.json", "icon.svg", "manifest.webmanifest", "LICENSE"];
-  const packed = ["page.js.gz", "worker.js.gz", "mediant_bg.wasm.gz"];
+  const packed = ["page.js.gz", "worker.js.gz", "light_bg.wasm.gz", "mediant_bg.wasm.gz"];
   const sources = ["page.js.map", "worker.js.map"];
   assert.deepEqual(
     filesOf(PAGE).sort(),

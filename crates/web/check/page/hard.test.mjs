@@ -77,13 +77,13 @@ test("a map cannot be loaded: the page says so, keeps the scene, and can try aga
 
 test("the engines cannot be loaded: the lane says so, and can try again", async () => {
   const context = await site.context();
-  await context.route("**/mediant_bg.wasm.gz?*", (route) => route.abort());
+  await context.route("**/light_bg.wasm.gz?*", (route) => route.abort());
   const page = await site.open({ context, start: false });
   await page.waitForFunction(() => /** @type {any} */ (globalThis).mediant?.lanes.list[0].phase === "failed");
   const texts = await said(page);
   assert.ok(texts.length > 0 && texts.every(isSentence), texts.join(" | "));
   assert.match(texts.join(" "), /engines could not be loaded/);
-  await context.unroute("**/mediant_bg.wasm.gz?*");
+  await context.unroute("**/light_bg.wasm.gz?*");
   await page.getByRole("button", { name: "Start lane 1 again" }).click();
   await settled(page);
   const [{ answer }] = await lanes(page);

@@ -31,12 +31,12 @@ import { Lanes } from "./search/lanes.js";
 import { Walkers } from "./search/walkers.js";
 import { Player } from "./stage/player.js";
 import { Stage } from "./stage/stage.js";
-import { provide } from "./workers.js";
+import { decided, loadWhole, provide } from "./workers.js";
 
 /** @import { Loaded } from "./workers.js" */
 
-/** Without a path, files for the time without a network are fetched so many ms after the start. */
-const OFFLINE_AFTER = 10_000;
+/** Without a path, what comes after it is fetched so many ms after the start. */
+const LATE = 10_000;
 
 /** Loads the scene of the link. Returns whether there is one that could be loaded. @param {Model} model */
 async function loadLink(model) {
@@ -57,6 +57,7 @@ async function firstScene(model, moves) {
   try {
     model.load(await loadMap({ kind: "bundled", name: "archipelago" }));
   } catch (error) {
+    loadWhole();
     say(sentence(error), { kind: "error", key: "map" });
   }
 }
@@ -90,10 +91,12 @@ function keepOffline() {
 /** @param {Model} model @param {() => void} help @param {{ isFirst: boolean, moves: boolean }} visit */
 function startParts(model, help, { isFirst, moves }) {
   const lanes = new Lanes(model);
-  // The files for use without a network are fetched late: they do not delay the first path.
-  const late = new Promise((done) => setTimeout(done, OFFLINE_AFTER));
+  // All engines, and then the files for use without a network, are fetched late: they do not delay the first
+  // path.
+  const late = new Promise((done) => setTimeout(done, LATE));
   const painted = firstPath(lanes);
-  Promise.race([painted, late]).then(keepOffline);
+  Promise.race([painted, late]).then(loadWhole);
+  Promise.race([Promise.all([painted, decided]), late]).then(keepOffline);
   const player = new Player(lanes);
   const walkers = new Walkers(model, lanes);
   const stage = new Stage(part("stage", HTMLElement), model, lanes, player, walkers);

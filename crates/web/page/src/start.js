@@ -8,6 +8,11 @@ import "./panels/theme-first.js";
 import { addressOf, unpacked } from "./files.js";
 import { banner, sentence } from "./panels/message.js";
 
+/** @import { Kind } from "./workers.js" */
+
+/** The file of each package. @type {Record<Kind, string>} */
+const ENGINES = { whole: "mediant_bg.wasm.gz", light: "light_bg.wasm.gz" };
+
 /** The feature that this browser lacks, as a sentence; empty if it has all that are needed. */
 function missing() {
   const hint = "A current browser is needed.";
@@ -29,9 +34,9 @@ async function script(name) {
   return URL.createObjectURL(new Blob([await response.blob(), map], { type: "text/javascript" }));
 }
 
-/** The engines, compiled while they load. */
-const compiled = async () =>
-  WebAssembly.compileStreaming(await unpacked("mediant_bg.wasm.gz", "application/wasm"));
+/** The engines of a package, compiled while they load. @param {Kind} kind */
+const compiled = async (kind) =>
+  WebAssembly.compileStreaming(await unpacked(ENGINES[kind], "application/wasm"));
 
 const parsed = () =>
   new Promise((/** @type {(value?: unknown) => void} */ done) => {
@@ -45,13 +50,15 @@ async function start() {
     await parsed();
     return banner(why);
   }
-  const engines = compiled();
+  // The first sight needs few engines. A link may need any: it waits for all.
+  const kind = location.hash.length > 1 ? "whole" : "light";
+  const engines = compiled(kind);
   // Whoever needs the engines hears that they failed, and tries again.
   engines.catch(() => {});
   const [page, worker] = await Promise.all([script("page.js"), script("worker.js"), parsed()]);
   /** @type {typeof import("./main.js")} */
   const { start } = await import(page);
-  await start({ worker, engines, compile: compiled });
+  await start({ worker, kind, engines, compile: compiled });
 }
 
 start().catch(async (error) => {

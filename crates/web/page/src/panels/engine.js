@@ -137,11 +137,7 @@ export class EnginePanel {
 
   #fillEngines() {
     const groups = GROUPS.map(([label, fits]) =>
-      h(
-        "optgroup",
-        { label },
-        ...this.#lanes.engines.filter(fits).map(({ name }) => h("option", { value: name }, engineName(name))),
-      ),
+      h("optgroup", { label }, ...this.#lanes.engines.filter(fits).map(({ name }) => option(name))),
     );
     this.#engine.replaceChildren(...groups);
   }
@@ -150,6 +146,8 @@ export class EnginePanel {
     const setup = this.#model.lanes[this.#model.active];
     if (!setup) return;
     const engine = this.#lanes.engines.find(({ name }) => name === setup.engine);
+    // Before all engines are there, only that of the lane is known.
+    if (this.#engine.querySelector("optgroup") === null) this.#engine.replaceChildren(option(setup.engine));
     this.#engine.value = setup.engine;
     this.#mark.replaceChildren(laneMark(this.#model.active));
     const onLand = this.#model.costs !== null;
@@ -198,3 +196,6 @@ export class EnginePanel {
     ]);
   }
 }
+
+/** @param {string} engine */
+const option = (engine) => h("option", { value: engine }, engineName(engine));

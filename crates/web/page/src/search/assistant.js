@@ -1,11 +1,17 @@
 // Asks the helper worker. It is started when it is first needed, and again if it breaks.
 
+/** @import { Kind } from "../workers.js" */
 /** @import { Request } from "./protocol.js" */
 import { Remote } from "./remote.js";
 
 export class Helper {
   /** @type {Remote<never, never> | null} */
   #remote = null;
+
+  /** @param {Kind} [kind] - The package of its worker. */
+  constructor(kind = "whole") {
+    this.kind = kind;
+  }
 
   /**
    * @param {Request} request
@@ -19,7 +25,7 @@ export class Helper {
 
   #start() {
     /** @type {Remote<never, never>} */
-    const remote = new Remote("helper");
+    const remote = new Remote("helper", this.kind);
     remote.listen(
       () => {},
       (why) => this.stop(why),

@@ -2,10 +2,11 @@
 // are worth and which setups go together, and computes what lies over the map.
 
 /** @import { LaneSetup, Rung } from "../../types.js" */
-/** @import { OverlayWish, Request, RungWish } from "./protocol.js" */
+/** @import { OverlayWish, Request, RungWish, Start } from "./protocol.js" */
 /** @import { Field } from "../../mediant/mediant.js" */
-import { bound, checkSetup, Grid, initSync, moves, Scenario } from "../../mediant/mediant.js";
+import { bound, checkSetup, Grid, moves, Scenario } from "../../mediant/mediant.js";
 import { readMap, readScenario } from "./files.js";
+import { begin } from "./package.js";
 import { motionOf, optionsOf, sentence, textOf } from "./protocol.js";
 import { edited, spaceOf } from "./session.js";
 
@@ -189,12 +190,12 @@ function partsOf(grid, { parts, setup, radius, start, goal }) {
   }
 }
 
-/** @typedef {{ type: "start", module: WebAssembly.Module } | (Request & { id: number })} Message */
+/** @typedef {Start | (Request & { id: number })} Message */
 
 /** @param {Message} data */
 function hear(data) {
   if (data.type === "start") {
-    initSync({ module: data.module });
+    begin(data.kind, data.module);
     postMessage({ type: "ready" });
     return;
   }

@@ -2,11 +2,13 @@
 // its own. It waits until no gesture is under way; the latest scene wins.
 
 /** @import { Change, LaneSetup, Model, Rung } from "../../types.js" */
+/** @import { Kind } from "../workers.js" */
 import { LARGEST_K } from "../model/described.js";
 import { LARGEST_K_ON_LAND, MOST_CELLS_OF_LADDER, MOST_CELLS_OF_STEPS } from "../model/land.js";
 import { Helper } from "./assistant.js";
 import { buffersOf, Feed } from "./feed.js";
 import { motionKey } from "./protocol.js";
+import { kindFor } from "./stand-in.js";
 
 /** @typedef {number | "any"} K */
 
@@ -100,12 +102,21 @@ export class Ladder {
     }
   }
 
+  /** Asks this package from now on. @param {Kind} kind */
+  #take(kind) {
+    if (kind === this.#helper.kind) return;
+    this.#helper.stop("");
+    this.#helper = new Helper(kind);
+    this.#feed.reset();
+  }
+
   /** @param {K} k */
   async #ask(k) {
     const { lanes, active, radius, start, goal, costs } = this.#model;
-    const [news, key] = [this.#feed.take(), this.#key];
     const setup = { ...lanes[active], k };
     const engine = engineFor(setup, costs !== null);
+    this.#take(kindFor(engine, this.#model));
+    const [news, key] = [this.#feed.take(), this.#key];
     const request = /** @type {const} */ ({ type: "rung", news, setup, engine, radius, start, goal });
     this.#isBusy = true;
     try {

@@ -5,9 +5,15 @@
 /** @import { Change, LaneAnswer, LaneSetup, LaneState, Model } from "../../types.js" */
 /** @import { EngineInfo } from "../../mediant/mediant.js" */
 /** @import { Ask, FromLane, Order, Reply, ToLane, Walk } from "./protocol.js" */
+/** @import { Sent } from "./when.js" */
+/** @import { Kind } from "../workers.js" */
+import { loadWhole, standsIn } from "../workers.js";
 import { buffersOf, Feed } from "./feed.js";
+import { Orders } from "./orders.js";
 import { BROKEN, bestKey, setupKey } from "./protocol.js";
 import { Remote } from "./remote.js";
+import { kindFor } from "./stand-in.js";
+import { PAUSE, whatNow } from "./when.js";
 
 /** The time (ms) after which a query is shown as under way. */
 const SHOWN = 60;
@@ -15,64 +21,17 @@ const SHOWN = 60;
 const MOST_RECORDED = 100_000;
 /** A worker whose memory has grown beyond this is replaced with the map, as memory never shrinks. */
 const MOST_MEMORY = 2 ** 28;
-/** Of a gesture's queries, one that took this long (ms) gives way to the next. */
-export const PATIENCE = 1000;
-/** A preparation of a map that has changed is given up after this long. */
-export const PREPARING = 1000;
-/** An index that took longer than this is not prepared at each stroke, but at a pause of so long. */
-export const [QUICK, PAUSE] = [30, 120];
 
 /** @typedef {Exclude<FromLane, Reply>} Heard */
 /** @typedef {Extract<FromLane, { type: "walked" }>} Walked */
 /** @typedef {Remote<ToLane, Heard>} LaneWorker */
-
-/**
- * A query under way.
- * @typedef {object} Sent
- * @property {number} number
- * @property {number} at - The time.
- * @property {boolean} isPreparing
- * @property {boolean} tells - Whether the engine tells how far it is: such an index is never repaired.
- * @property {string} scene - All on which the shortest path at any angle depends.
- */
-
-/**
- * @typedef {object} Situation
- * @property {number} now
- * @property {"" | "end" | "cells"} gesture
- * @property {number} took - The time to bring the index up to date after an edit, in ms.
- * @property {number} pauseEnds - The time at which the user has not drawn for a while.
- * @property {Pick<Sent, "at" | "isPreparing"> | null} sent
- * @property {boolean} isOther - Whether more than the ends has changed since it was sent.
- */
-
-/**
- * The next action: the query is sent now, at a time, or after the answer to the one under way; or the worker
- * is replaced, as its work is of no use and cannot be paused. Pure, so that it can be tested.
- * @param {Situation} situation
- * @returns {"send" | "replace" | "await" | { until: number }}
- */
-export function whatNow({ now, gesture, took, pauseEnds, sent, isOther }) {
-  if (gesture === "cells" && took > QUICK && now < pauseEnds) {
-    return { until: pauseEnds };
-  }
-  if (!sent) {
-    return "send";
-  }
-  const age = now - sent.at;
-  if (sent.isPreparing) {
-    return isOther && age > PREPARING ? "replace" : "await";
-  }
-  // In a gesture the answer to a scene a little older is better than none.
-  return (isOther && !gesture) || age > PATIENCE ? "send" : "await";
-}
 
 /** A worker that was started ahead. @type {LaneWorker | null} */
 let spare = null;
 
 /** Starts the worker of the first lane while the page is still put together. */
 export function warm() {
-  spare ??= new Remote("lane");
+  spare ??= new Remote("lane", standsIn() ? "light" : "whole");
 }
 
 export class Lane {
@@ -117,6 +76,8 @@ export class Lane {
   #pauseEnds = 0;
   #memory = 0;
   #timers = { show: 0, pause: 0 };
+  /** Files that wait until the worker can write them. */
+  #orders = new Orders();
   /** The agents' errands, and who hears what became of them. */
   /** @type {{ walk: Walk, heard: (message: Walked | null) => void, isSent: boolean } | null} */
   #walk = null;
@@ -125,7 +86,7 @@ export class Lane {
    * @param {Model} model
    * @param {Readonly<LaneSetup>} setup
    * @param {(lane: Lane) => void} changed
-   * @param {(engines: EngineInfo[]) => void} readied
+   * @param {(engines: EngineInfo[], kind: Kind) => void} readied
    */
   constructor(model, setup, changed, readied) {
     this.#model = model;
@@ -136,9 +97,18 @@ export class Lane {
     this.#remote = this.#start();
   }
 
+  /** Whether the worker has the light package. */
+  get #isLight() {
+    return this.#remote.kind === "light";
+  }
+
   #start() {
+    const kind = kindFor(this.setup.engine, this.#model);
+    if (kind === "whole") loadWhole();
+    const isFit = spare?.kind === kind;
+    if (!isFit) spare?.close("");
     /** @type {LaneWorker} */
-    const remote = spare ?? new Remote("lane");
+    const remote = isFit && spare ? spare : new Remote("lane", kind);
     spare = null;
     remote.listen(
       (message) => this.#hear(message),
@@ -154,6 +124,13 @@ export class Lane {
     this.#isReady = this.#isDead = false;
     this.#feed.reset();
     this.#remote = this.#start();
+  }
+
+  /** A worker with the whole package takes over. It is asked again what the light one has answered. */
+  takeWhole() {
+    if (!this.#isLight) return;
+    this.#isWanted ||= this.#sent !== null || this.state.phase === "done";
+    this.#replace();
   }
 
   /** @param {string} why - The message to those who wait for something. */
@@ -172,6 +149,7 @@ export class Lane {
     clearTimeout(this.#timers.show);
     clearTimeout(this.#timers.pause);
     this.#end("The lane was removed.");
+    this.#orders.refuse("The lane was removed.");
   }
 
   /**
@@ -270,6 +248,10 @@ export class Lane {
 
   /** Sends what is to be sent, if it is time. */
   #pump() {
+    if (this.#isWanted && this.#isLight && kindFor(this.setup.engine, this.#model) === "whole") {
+      this.#replace();
+      this.#show("starting");
+    }
     if (this.#isWanted && this.#isReady) {
       const now = performance.now();
       const { gesture } = this.#model;
@@ -288,6 +270,10 @@ export class Lane {
     if (!this.#isWanted && this.#isReady && this.#walk && !this.#walk.isSent) {
       this.#walk.isSent = true;
       this.#remote.post(this.#walk.walk);
+    }
+    // The light package writes no files.
+    if (!this.#isWanted && this.#isReady && !this.#isLight) {
+      this.#orders.send(this.#remote);
     }
   }
 
@@ -329,7 +315,7 @@ export class Lane {
     switch (message.type) {
       case "ready":
         this.#isReady = true;
-        this.#readied(message.engines);
+        this.#readied(message.engines, this.#remote.kind);
         this.#pump();
         break;
       case "walked":
@@ -369,7 +355,8 @@ export class Lane {
         sent.isPreparing = false;
         // Without an edit it is not known whether one is quick: the first one tells.
         this.#took = message.wasEdit ? (this.#took + message.took) / 2 : sent.tells ? message.took : 0;
-        state.index = message.index ?? state.index;
+        // It says how long that took, which is for the whole package to tell.
+        state.index = (!this.#isLight && message.index) || state.index;
         if (state.phase === "preparing") {
           this.#show("searching");
         }
@@ -380,9 +367,7 @@ export class Lane {
         break;
       case "answer":
         [this.#sent, this.#memory, this.#answered] = [null, message.memory, message.number];
-        [state.answer, state.expanded] = [message.answer, message.answer.expanded];
-        this.#keep(sent.scene, message.answer);
-        state.stale = this.#isWanted;
+        this.#take(message.answer, sent.scene);
         this.#show("done");
         this.#model.gesture ? this.#pump() : this.settle();
         break;
@@ -391,6 +376,21 @@ export class Lane {
         this.#fail(message.message);
         this.#pump();
     }
+  }
+
+  /** @param {LaneAnswer} answer @param {string} scene */
+  #take(answer, scene) {
+    const { state } = this;
+    // The whole package tells how long a query takes.
+    answer.settled &&= !this.#isLight;
+    if (state.answer && !state.stale) {
+      // Nothing has changed: it answers again what the light one has answered, and only times are others.
+      [state.answer.ms, state.answer.settled] = [answer.ms, answer.settled];
+      return;
+    }
+    [state.answer, state.expanded] = [answer, answer.expanded];
+    this.#keep(scene, answer);
+    state.stale = this.#isWanted;
   }
 
   /**
@@ -403,6 +403,7 @@ export class Lane {
       return;
     }
     if (message.type === "timing") {
+      if (this.#isLight) return;
       [answer.ms, answer.settled] = [message.ms, message.settled];
     } else {
       answer.reference = message.reference;
@@ -441,6 +442,7 @@ export class Lane {
   /** @param {string} message */
   #fail(message) {
     this.state.answer = null;
+    this.#orders.refuse(message);
     this.#show("failed", message);
   }
 
@@ -484,9 +486,11 @@ export class Lane {
    * @returns {Promise<Blob>}
    */
   order(order) {
-    if (!this.#isReady || !this.state.answer) {
+    if (!this.state.answer) {
       return Promise.reject(new Error("This lane has no answer yet. Wait for it, or choose another lane."));
     }
-    return this.#remote.ask(order);
+    const file = this.#orders.add(order);
+    this.#pump();
+    return file;
   }
 }

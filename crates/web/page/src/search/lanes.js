@@ -4,6 +4,7 @@
 /** @import { Order } from "./protocol.js" */
 /** @import { Change, EngineInfo, Lanes as Contract, LaneSetup, LaneState, Model } from "../../types.js" */
 /** @import { Queries } from "../../types.js" */
+import { decided } from "../workers.js";
 import { Helper } from "./assistant.js";
 import { Ladder } from "./ladder.js";
 import { Lane } from "./lane.js";
@@ -53,6 +54,7 @@ export class Lanes extends EventTarget {
     this.#overlay.update();
     this.#first.then(() => this.#ladder.update());
     model.addEventListener("change", (event) => this.#note(changeOf(event)));
+    decided.then(() => this.#lanes.forEach((lane) => lane.takeWhole()));
   }
 
   get field() {
@@ -125,9 +127,10 @@ export class Lanes extends EventTarget {
         this.#overlay.update();
       }
     };
-    return new Lane(this.#model, setup, changed, (engines) => {
-      this.engines = engines;
-      this.#readied();
+    return new Lane(this.#model, setup, changed, (engines, kind) => {
+      const isWhole = kind === "whole";
+      if (isWhole || this.engines.length === 0) this.engines = engines;
+      if (isWhole) this.#readied();
     });
   }
 

@@ -3,6 +3,7 @@
 
 /** @import { Change, LaneAnswer, LaneSetup, LaneState, Model, Motion, Point, Rect } from "../../types.js" */
 /** @import { EngineInfo, Options, Waypoints } from "../../mediant/mediant.js" */
+/** @import { Kind } from "../workers.js" */
 import { bendsAtCorners, gapOf } from "../model/setups.js";
 
 /**
@@ -57,8 +58,13 @@ import { bendsAtCorners, gapOf } from "../model/setups.js";
  */
 
 /**
+ * The first message to a worker with a package.
+ * @typedef {{ type: "start", kind: Kind, module: WebAssembly.Module }} Start
+ */
+
+/**
  * A message to a lane's worker.
- * @typedef {{ type: "start", module: WebAssembly.Module } | Ask | Walk | { type: "cancel" }
+ * @typedef {Start | Ask | Walk | { type: "cancel" }
  *   | { type: "refine" } | (Order & { id: number })} ToLane
  */
 

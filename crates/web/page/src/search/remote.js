@@ -1,7 +1,7 @@
 // A worker with the package in it, as the page holds it.
 
-/** @import { Role } from "../workers.js" */
-/** @import { Reply } from "./protocol.js" */
+/** @import { Kind, Role } from "../workers.js" */
+/** @import { Reply, Start } from "./protocol.js" */
 import { compiled, newWorker } from "../workers.js";
 import { BROKEN, sentence, textOf } from "./protocol.js";
 
@@ -25,8 +25,9 @@ export class Remote {
   #open = new Map();
   #count = 0;
 
-  /** @param {Role} role */
-  constructor(role) {
+  /** @param {Role} role @param {Kind} kind */
+  constructor(role, kind) {
+    this.kind = kind;
     this.#worker = newWorker(role);
     this.#worker.onmessage = ({ data }) => this.#hear(data);
     this.#worker.onmessageerror = () => this.#fail("a message of a worker could not be read");
@@ -34,17 +35,17 @@ export class Remote {
       event.preventDefault();
       this.#fail(event.message || "a worker could not be loaded");
     };
-    compiled().then(
-      (module) => this.#begin(module),
+    compiled(kind).then(
+      (module) => this.#begin({ type: "start", kind, module }),
       (error) => this.#fail(textOf(error)),
     );
   }
 
-  /** @param {WebAssembly.Module} module */
-  #begin(module) {
+  /** @param {Start} start */
+  #begin(start) {
     const unsent = this.#unsent ?? [];
     this.#unsent = null;
-    this.#send({ type: "start", module }, []);
+    this.#send(start, []);
     for (const { message, transfer } of unsent) {
       this.#send(message, transfer);
     }

@@ -6,8 +6,8 @@
 /** @import { Answer, Planner, Trace, Waypoints, Wishes } from "../../mediant/mediant.js" */
 /** @import { Ask, FromLane } from "./protocol.js" */
 /** @import { Session } from "./session.js" */
-import { Trace as NewTrace } from "../../mediant/mediant.js";
 import { bendsAtCorners } from "../model/setups.js";
+import { mediant } from "./package.js";
 import { sentence, textOf } from "./protocol.js";
 
 /** @typedef {(message: FromLane, transfer?: Transferable[]) => void} Say */
@@ -54,7 +54,7 @@ export function* sliced(planner, { start, goal, wishes }, measured, trace, betwe
 
 /** The steps of a search, taken out of the package's memory as they come. */
 class Recording {
-  trace = new NewTrace();
+  trace = new mediant.Trace();
   expanded = 0;
   generated = 0;
   #length = 0;

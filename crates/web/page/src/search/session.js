@@ -3,9 +3,9 @@
 // replaced are freed.
 
 /** @import { LaneSetup } from "../../types.js" */
-/** @import { Index, Planner } from "../../mediant/mediant.js" */
+/** @import { Grid, Index, Planner, Space } from "../../mediant/mediant.js" */
 /** @import { Ask, MapNews } from "./protocol.js" */
-import { Grid, Space } from "../../mediant/mediant.js";
+import { mediant } from "./package.js";
 import { motionKey, motionOf, optionsOf, setupKey } from "./protocol.js";
 
 /** @typedef {(stage: string, done: number, total: number) => void} Progress */
@@ -249,7 +249,7 @@ function isOf(index, space) {
 export function edited(grid, { map, patch }) {
   if (map) {
     grid?.free();
-    return new Grid(map.width, map.height, map.cells, map.costs ? { costs: map.costs } : undefined);
+    return new mediant.Grid(map.width, map.height, map.cells, map.costs ? { costs: map.costs } : undefined);
   }
   if (!patch || !grid) {
     return grid;

@@ -5,9 +5,9 @@
 /** @import { LaneAnswer } from "../../types.js" */
 /** @import { Ask, FromLane, ToLane } from "./protocol.js" */
 /** @import { Index } from "../../mediant/mediant.js" */
-import { engines, initSync } from "../../mediant/mediant.js";
 import { walk } from "./crowd.js";
 import { write } from "./output.js";
+import { begin } from "./package.js";
 import { BROKEN, sentence, textOf } from "./protocol.js";
 import { isTimed, refine, search } from "./search.js";
 import { Session } from "./session.js";
@@ -160,10 +160,12 @@ function wake() {
 /** @param {ToLane} data */
 function hear(data) {
   switch (data.type) {
-    case "start":
-      memory = initSync({ module: data.module }).memory;
-      say({ type: "ready", engines: engines() });
+    case "start": {
+      const begun = begin(data.kind, data.module);
+      memory = begun.memory;
+      say({ type: "ready", engines: begun.engines });
       break;
+    }
     case "ask":
       drop();
       session.note(data.news);
@@ -184,6 +186,8 @@ function hear(data) {
     default:
       if (ask) {
         orders.push(write(session, ask, data, say));
+      } else {
+        say({ type: "refused", id: data.id, message: "The engine has no answer yet. Wait for it." });
       }
   }
   wake();
