@@ -47,12 +47,12 @@ mod tests {
     #[test]
     fn more_than_there_is_is_refused() {
         assert!(room_for::<u64>(1 << 20, "testing").is_ok());
-        let error = room_for::<u64>(usize::MAX / 16, "testing").expect_err("more than there is");
+        let error = room_for::<u64>(usize::MAX / 8, "testing").expect_err("more than there is");
         assert_eq!(error.to_string(), "no room for what is made while testing");
         assert!(room_for::<u64>(usize::MAX, "testing").is_err());
         let mut list = vec![1_u64];
         assert!(room_in(&mut list, 1 << 14, "testing").is_ok() && list.capacity() > 1 << 14);
-        let error = room_in(&mut list, usize::MAX / 16, "testing").expect_err("more than there is");
-        assert!(matches!(error.by, StoppedBy::Memory { bytes } if bytes > 1 << 60));
+        let error = room_in(&mut list, usize::MAX / 8, "testing").expect_err("more than there is");
+        assert!(matches!(error.by, StoppedBy::Memory { bytes } if bytes > isize::MAX as u64));
     }
 }
