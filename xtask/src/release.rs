@@ -24,6 +24,8 @@ use crate::{
     project::{self, Package},
 };
 
+/// The folder for the files, which is emptied first.
+const FOLDER: &str = "target/dist";
 /// The list of the files' digests, as `sha256sum --check` reads it.
 const DIGESTS: &str = "SHA256SUMS";
 
@@ -33,9 +35,6 @@ pub struct Options {
     /// Publish nothing: all that this chore does
     #[arg(long, required = true)]
     pub dry_run: bool,
-    /// The folder for the files
-    #[arg(long, value_name = "FOLDER", default_value = "target/dist")]
-    pub into: PathBuf,
     /// Only these
     #[arg(long, value_name = "WORLD", num_args = 1..)]
     pub only: Vec<World>,
@@ -65,7 +64,7 @@ impl World {
             Self::Shell => "",
             Self::Python => "twine upload mediant-*.whl",
             Self::Web => "npm publish mediant-*.tgz",
-            Self::C => "gh release create --draft, with libmediant-*.tar.gz and SHA256SUMS",
+            Self::C => "gh release create TAG libmediant-*.tar.gz SHA256SUMS",
         }
     }
 }
@@ -78,7 +77,7 @@ impl World {
 pub fn run(options: &Options) -> Result<(), Error> {
     let version = version()?;
     in_changelog(&version)?;
-    let into = root().join(&options.into);
+    let into = root().join(FOLDER);
     if into.exists() {
         fs::remove_dir_all(&into).map_err(Error::at(&into))?;
     }

@@ -8,9 +8,10 @@
 //! The words that a program takes and says are in [`report`]; `DIR/peers.json` names the programs
 //! ([`Peer`](list::Peer)). None comes with this project.
 //!
-//! Outcomes are kept in `target/compare` while the revision is the same, so that a run goes on where it was
-//! interrupted. At the end the record `docs/results/data/peers.json` is written; `cargo xtask describe` draws
-//! the tables of README and of `docs/performance.md` from it.
+//! Outcomes are kept in `target/compare` while the revision, the list of programs and the passes are the
+//! same, so that a run goes on where it was interrupted; programs that failed are tried again, and so is
+//! everyone where sources differ from the revision. At the end the record `docs/results/data/peers.json`
+//! is written; `cargo xtask describe` draws the tables of README and of `docs/performance.md` from it.
 
 pub(super) mod alone;
 mod list;
@@ -80,7 +81,8 @@ pub(super) fn run(
         .json
         .as_ref()
         .map_or_else(|| root.join("target/compare/peers.jsonl"), |path| path.with_extension("jsonl"));
-    let mut rounds = Rounds::open(&kept, &revision)?;
+    let conditions = format!("{revision} {} {} {peers:?}", options.passes, options.seconds);
+    let mut rounds = Rounds::open(&kept, &conditions, !revision.contains("-dirty"))?;
     let bar = ProgressBar::new((tasks.len() * runners.len()) as u64 * u64::from(options.rounds));
     for round in 0..options.rounds {
         for task in &tasks {
@@ -128,8 +130,12 @@ fn tasks(
     runners: &[Runner],
     options: &Options,
 ) -> Result<Vec<Task>, CompareError> {
-    let mut motions: Vec<Motion> = runners.iter().map(|runner| runner.setup().motion).collect();
-    motions.dedup();
+    let mut motions: Vec<Motion> = Vec::new();
+    for motion in runners.iter().map(|runner| runner.setup().motion) {
+        if !motions.contains(&motion) {
+            motions.push(motion);
+        }
+    }
     let references = ReferenceTimings::bundled()?;
     let is_asked = |name: &String| options.maps.is_empty() || options.maps.contains(name);
     let rows: Vec<_> = references.maps.iter().filter(|row| is_asked(&row.map)).collect();

@@ -28,7 +28,7 @@ fn columns() -> Vec<Column> {
     ]
 }
 
-/// How a list is called.
+/// The name of a list.
 fn name_of_list(every: u32) -> String {
     if every == 1 { "whole files".to_owned() } else { format!("every {every}th") }
 }

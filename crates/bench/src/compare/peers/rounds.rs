@@ -1,4 +1,4 @@
-//! The outcomes of all rounds, kept while the revision is the same.
+//! The outcomes of all rounds, kept while the conditions are the same.
 
 use std::{
     collections::BTreeMap,
@@ -76,7 +76,7 @@ fn is_as_long(cost: f64, shortest: f64) -> bool {
 
 /// All outcomes, and the file that keeps them.
 pub(super) struct Rounds {
-    revision: String,
+    conditions: String,
     path: PathBuf,
     file: File,
     outcomes: BTreeMap<Key, Outcome>,
@@ -85,26 +85,27 @@ pub(super) struct Rounds {
 /// A line of the file.
 #[derive(Serialize, Deserialize)]
 struct Line {
-    revision: String,
+    conditions: String,
     key: Key,
     outcome: Outcome,
 }
 
 impl Rounds {
-    /// The outcomes of a revision so far.
+    /// The figures under these conditions so far, if they may be `kept`. Programs that failed may do better.
     ///
     /// # Errors
     /// [`CompareError::Write`] for a file that cannot be written.
-    pub(super) fn open(path: &Path, revision: &str) -> Result<Self, CompareError> {
+    pub(super) fn open(path: &Path, conditions: &str, kept: bool) -> Result<Self, CompareError> {
         let text = fs::read_to_string(path).unwrap_or_default();
         let lines = text.lines().filter_map(|line| serde_json::from_str::<Line>(line).ok());
-        let own = lines.filter(|line| line.revision == revision);
+        let is_measured = |line: &Line| matches!(line.outcome, Outcome::Measured(_));
+        let own = lines.filter(|line| kept && line.conditions == conditions && is_measured(line));
         let outcomes = own.map(|line| (line.key, line.outcome)).collect();
         let folder = path.parent().unwrap_or(path);
         fs::create_dir_all(folder).map_err(CompareError::at_write(folder))?;
         let file = OpenOptions::new().append(true).create(true).open(path);
         let file = file.map_err(CompareError::at_write(path))?;
-        Ok(Self { revision: revision.to_owned(), path: path.to_owned(), file, outcomes })
+        Ok(Self { conditions: conditions.to_owned(), path: path.to_owned(), file, outcomes })
     }
 
     pub(super) fn has(&self, key: &Key) -> bool {
@@ -114,7 +115,7 @@ impl Rounds {
     /// # Errors
     /// [`CompareError::Write`] if it cannot be kept.
     pub(super) fn add(&mut self, key: Key, outcome: Outcome) -> Result<(), CompareError> {
-        let line = Line { revision: self.revision.clone(), key, outcome };
+        let line = Line { conditions: self.conditions.clone(), key, outcome };
         let text = serde_json::to_string(&line).unwrap_or_default() + "\n";
         self.file.write_all(text.as_bytes()).map_err(CompareError::at_write(&self.path))?;
         self.outcomes.insert(line.key, line.outcome);
@@ -139,6 +140,7 @@ impl Rounds {
             Outcome::Refused(reason) => Some(format!("{} on {}: {reason}", key.program, key.map)),
         });
         let mut sentences: Vec<String> = refused.collect();
+        sentences.sort();
         sentences.dedup();
         sentences
     }
@@ -158,15 +160,19 @@ mod tests {
     }
 
     #[test]
-    fn outcomes_are_kept_for_their_revision() {
+    fn figures_are_kept_under_their_conditions() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("target/peers.jsonl");
-        let key = Key::new(20, "arena2", "jps2", 0);
-        let refused = Outcome::Refused("no map".to_owned());
-        Rounds::open(&path, "a").unwrap().add(key.clone(), refused).unwrap();
-        let again = Rounds::open(&path, "a").unwrap();
-        assert!(again.has(&key) && again.figures(20, "arena2", "jps2").is_empty());
-        assert_eq!(again.refusals(), ["jps2 on arena2: no map"]);
-        assert!(!Rounds::open(&path, "b").unwrap().has(&key));
+        let open = |conditions, kept| Rounds::open(&path, conditions, kept).unwrap();
+        let [measured, refused] = ["jps2", "jps2+"].map(|name| Key::new(20, "arena2", name, 0));
+        let mut rounds = open("a", true);
+        rounds.add(measured.clone(), Outcome::of(&Report::default(), &[])).unwrap();
+        rounds.add(refused.clone(), Outcome::Refused("no map".to_owned())).unwrap();
+        assert_eq!(rounds.refusals(), ["jps2+ on arena2: no map"]);
+        let again = open("a", true);
+        assert!(again.has(&measured) && again.figures(20, "arena2", "jps2").len() == 1);
+        // It may be there now.
+        assert!(!again.has(&refused));
+        assert!(!open("b", true).has(&measured) && !open("a", false).has(&measured));
     }
 }
