@@ -5,6 +5,7 @@
 
 mod clauses;
 mod dependencies;
+mod figures;
 mod finding;
 mod links;
 mod modules;
@@ -38,6 +39,7 @@ pub fn check_files(tree: &Tree, exceptions: &[Exception]) -> Vec<Finding> {
     links::check(tree, &mut findings);
     width::check(tree, &mut findings);
     clauses::check(tree, &mut findings);
+    figures::check(tree, &mut findings);
     described(tree, &mut findings);
     findings.sort();
     findings

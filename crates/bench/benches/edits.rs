@@ -1,5 +1,5 @@
 //! One cell opens or closes: the edit, the space, the repaired index and the planner that follows.
-//! `cargo bench -p mediant-bench --bench edits` writes the table of `docs/performance.md`.
+//! `cargo bench -p mediant-bench --bench edits` writes the table of `docs/measurements/changing.md`.
 //!
 //! The edits follow one another, each of a random cell, and old versions are given up. After every eighth a
 //! path is searched, so that planners are warm; that does not count. The first edit of a chain stands alone:

@@ -71,6 +71,9 @@ pub struct ReferenceProgram {
     pub call: Option<String>,
     /// Anything else.
     pub note: Option<String>,
+    /// Whether it has run beside Mediant on one machine since (`docs/performance.md`), which tells more.
+    #[serde(default)]
+    pub has_run_beside: bool,
 }
 
 /// The problem that a program solves, in the words of the `mediant` program.

@@ -1,7 +1,7 @@
 //! Our engines beside other programs: what `cargo xtask compare` measures, as a page.
 
 use mediant::{Engine, Setup};
-use mediant_bench::{Comparison, Competitor, Kept, MapRecord, ReferenceTimings, Timing};
+use mediant_bench::{Comparison, Competitor, Kept, MapRecord, ReferenceProgram, ReferenceTimings, Timing};
 use mediant_report::{Axis, Chart, Mark, Record, Row, Series, Table, number, stats, thousands};
 
 use super::{
@@ -16,7 +16,7 @@ use crate::Error;
 pub(super) const PROGRAMS: Experiment = Experiment {
     id: "compared-programs",
     page: Page::Compared,
-    title: "Thirteen programs, on the same instances",
+    title: "Every engine, and programs that were timed on another machine",
     sets: SETS,
     measure,
     show,
@@ -111,7 +111,7 @@ fn canonical(text: &str) -> String {
 /// A setup, a program, and the geometric mean of our time over that of the program.
 type Mean = (&'static str, String, f64);
 
-/// Each setup beside each program that solves the same problem.
+/// Each setup beside each program that solves the same problem, and has not run beside ours since.
 fn means(record: &Record, references: &ReferenceTimings) -> (Table, Vec<Mean>) {
     let compared = comparisons(record, references);
     let mut table =
@@ -119,8 +119,9 @@ fn means(record: &Record, references: &ReferenceTimings) -> (Table, Vec<Mean>) {
     let mut means: Vec<Mean> = Vec::new();
     for (at, text) in SETUPS.iter().enumerate() {
         let Ok(parsed) = text.parse::<Setup>() else { continue };
+        let is_shown = |program: &ReferenceProgram| program.solves(parsed) && !program.has_run_beside;
         for (which, program) in
-            references.programs.iter().enumerate().filter(|(_, program)| program.solves(parsed))
+            references.programs.iter().enumerate().filter(|(_, program)| is_shown(program))
         {
             let ratio = |(map, all): &(String, Vec<Option<Comparison>>)| {
                 let ratio = all[at].as_ref()?.ratios.get(which).copied().flatten()?;
@@ -153,7 +154,9 @@ fn show(record: &Record) -> Section {
     let mut section = Section::default();
     let Ok(references) = ReferenceTimings::bundled() else { return section };
     section.text(
-        "Ratios, never times: two crates that anyone can run were measured on the machine of the other \
+        "The fastest programs have run beside Mediant on one machine since, and have a page of their own: \
+         [performance](../performance.md). Here stand those that were timed on another machine alone. \
+         Ratios, never times: two crates that anyone can run were measured on the machine of the other \
          programs, and here in the same passes as our engines; their times tell the ratio of the machines, \
          map by map. Below 1, ours is faster. Only programs that solve the same problem are compared: the \
          same directions and rules, both optimally or neither.",

@@ -29,6 +29,7 @@ pub(super) fn regions(tree: &Tree) -> Result<Vec<Region>, String> {
         region("README.md", "speed", &peers.fastest()),
         region(PAGE, "ratios", &peers.ratios()),
         region(PAGE, "programs", &peers.programs()),
+        region(PAGE, "behind", &peers.behind()),
     ];
     let (k, any) = ([":3:", "k-3"], [":any:", "any-angle"]);
     for ([motion, name], list) in [k, any].into_iter().flat_map(|kind| [(kind, WHOLE), (kind, "every 20th")])
@@ -84,9 +85,10 @@ impl<'a> Peers<'a> {
         format!("{mean:.2} ({least:.2} to {most:.2})")
     }
 
-    /// For each of our setups the program that is ahead of the others, on whole files.
+    /// For each of our setups the time of a query and the fastest other program, on whole files.
     fn fastest(&self) -> Table {
-        let mut table = Table::new(["", "beside the fastest other program", "maps", "ratio"]).names(2);
+        let heading = ["Mediant", "µs a query", "beside the fastest other program", "maps", "ratio"];
+        let mut table = Table::new(heading).names(1);
         let pairs = self.pairs();
         let mut setups: Vec<&str> = pairs.iter().map(|(ours, _)| *ours).collect();
         setups.dedup();
@@ -100,7 +102,9 @@ impl<'a> Peers<'a> {
             let Some((program, maps, mean)) = means.max_by(|one, other| one.2.total_cmp(&other.2)) else {
                 continue;
             };
-            table.row([in_words(setup), program.to_owned(), maps.to_string(), format!("{mean:.2}")]);
+            let ours: Vec<f64> = self.map_times(WHOLE, setup).into_iter().flatten().collect();
+            let query = geometric_mean(&ours).map_or("–".to_owned(), number);
+            table.row([in_words(setup), query, program.to_owned(), maps.to_string(), format!("{mean:.2}")]);
         }
         table
     }
@@ -144,6 +148,39 @@ impl<'a> Peers<'a> {
         table
     }
 
+    /// Each pair of programs of which ours takes longer on some map, with these maps by list.
+    fn behind(&self) -> Table {
+        let heading = ["Mediant", "beside", "list", "maps", "of", "ratios"];
+        let mut table = Table::new(heading).names(3);
+        for (pair, list) in
+            self.pairs().iter().flat_map(|pair| self.lists().into_iter().map(move |list| (pair, list)))
+        {
+            let mut all = Vec::new();
+            for map in self.record.distinct("map") {
+                let query = |program: &str| self.row(list, map, program)?.number("query");
+                if let (Some(ours), Some(theirs)) = (query(pair.0), query(pair.1)) {
+                    all.push((map, ours / theirs));
+                }
+            }
+            let of = all.len();
+            all.retain(|(_, ratio)| *ratio > 1.0);
+            all.sort_by(|one, other| other.1.total_cmp(&one.1));
+            if !all.is_empty() {
+                let named: Vec<String> = all.iter().map(|(map, ratio)| format!("{map} {ratio:.2}")).collect();
+                let cells =
+                    [format!("`{}`", pair.0), pair.1.to_owned(), list.to_owned(), all.len().to_string()];
+                table.row(cells.into_iter().chain([of.to_string(), named.join(", ")]));
+            }
+        }
+        table
+    }
+
+    /// The microseconds of a query on each map.
+    fn map_times(&self, list: &str, program: &str) -> Vec<Option<f64>> {
+        let maps = self.record.distinct("map").into_iter();
+        maps.map(|map| self.row(list, map, program)?.number("query")).collect()
+    }
+
     /// Microseconds, map by map, of the programs of one motion.
     fn times(&self, motion: &str, list: &str) -> Table {
         let pairs = self.pairs().into_iter().filter(|(ours, _)| ours.contains(motion));
@@ -158,11 +195,18 @@ impl<'a> Peers<'a> {
             if is_ours(program) { format!("*`{program}`*") } else { (*program).to_owned() }
         };
         let mut table = Table::new(["map".to_owned()].into_iter().chain(programs.iter().map(heading)));
-        let time = |map: &str, program: &str| self.row(list, map, program)?.number("query");
-        for map in self.record.distinct("map") {
-            let cell = |program: &&str| time(map, program).map_or("–".to_owned(), number);
-            table.row([map.to_owned()].into_iter().chain(programs.iter().map(cell)));
+        let columns: Vec<Vec<Option<f64>>> =
+            programs.iter().map(|program| self.map_times(list, program)).collect();
+        for (at, map) in self.record.distinct("map").into_iter().enumerate() {
+            let cell = |column: &Vec<Option<f64>>| column[at].map_or("–".to_owned(), number);
+            table.row([map.to_owned()].into_iter().chain(columns.iter().map(cell)));
         }
+        let mean = |column: &Vec<Option<f64>>| {
+            let times: Vec<f64> = column.iter().copied().flatten().collect();
+            let over = if times.len() < column.len() { format!(" ({})", times.len()) } else { String::new() };
+            geometric_mean(&times).map_or("–".to_owned(), |mean| format!("**{}**{over}", number(mean)))
+        };
+        table.row(["**geometric mean** (maps)".to_owned()].into_iter().chain(columns.iter().map(mean)));
         table
     }
 }
@@ -228,8 +272,8 @@ mod tests {
         );
         assert!(text.contains("| `jps-block:3:never` | fast | 1 | – | 0.50 (0.50 to 0.50) |"), "{text}");
         let text = peers.fastest().markdown();
-        assert!(text.contains("| k = 3: `jps-block` | fast | 1 | 0.50 |"), "{text}");
-        assert!(text.contains("| any angle: `subgoal`, memory=5000000 | EHL | 1 | 0.50 |"), "{text}");
+        assert!(text.contains("| k = 3: `jps-block` | 1.41 | fast | 1 | 0.50 |"), "{text}");
+        assert!(text.contains("| any angle: `subgoal`, memory=5000000 | 1.00 | EHL | 1 | 0.50 |"), "{text}");
     }
 
     #[test]
@@ -239,8 +283,24 @@ mod tests {
         assert_eq!(
             text,
             "| map | *`jps-block:3:never`* | slow | fast |\n|---|--:|--:|--:|\n| a | 1.00 | 8.00 | 2.00 |\n\
-             | b | 2.00 | 4.00 | – |\n"
+             | b | 2.00 | 4.00 | – |\n| **geometric mean** (maps) | **1.41** | **5.66** | **2.00** (1) |\n"
         );
+    }
+
+    #[test]
+    fn maps_are_named_on_which_ours_takes_longer() {
+        let mut record = record();
+        assert!(Peers { record: &record }.behind().is_empty());
+        let set = |record: &mut Record, at: usize, query: f64| {
+            let row = &record.rows[at];
+            let keys = ["list", "map", "program", "beside"];
+            let row = keys.iter().fold(Row::new(), |new, key| new.key(key, row.text(key)));
+            record.rows[at] = row.with("query", query).with("first", query);
+        };
+        set(&mut record, 6, 1.6);
+        let text = Peers { record: &record }.behind().markdown();
+        assert!(text.ends_with("| `jps-block:3:never` | slow | whole files | 1 | 2 | b 1.25 |\n"), "{text}");
+        assert_eq!(text.lines().count(), 3, "{text}");
     }
 
     #[test]
@@ -248,6 +308,6 @@ mod tests {
         assert!(regions(&Tree::new(Vec::new())).is_ok_and(|regions| regions.is_empty()));
         let text = record().json().into_bytes();
         let regions = regions(&Tree::new(vec![(FILE.into(), text)])).map(|regions| regions.len());
-        assert_eq!(regions, Ok(8));
+        assert_eq!(regions, Ok(9));
     }
 }

@@ -20,6 +20,7 @@ fn columns() -> Vec<Column> {
         Column::key("beside", "our engine beside it; nothing for ours"),
         Column::key("version", "its version or revision; nothing for ours"),
         Column::count("instances", "", "the queries"),
+        Column::count("rounds", "", "those in which it was measured"),
         Column::count("differ", "", "those whose path is not the shortest"),
         Column::time("query", "µs", "the mean time of a query: median of warm passes, median of rounds"),
         Column::time("first", "µs", "the same in the first pass of the process"),
@@ -59,10 +60,8 @@ pub(super) fn record(
             machine: Machine::here(),
             maps: maps.count(),
             instances: tasks.iter().map(|task| task.problem.len() as u64).sum(),
-            drawn: format!(
-                "the instances of the lists; each program alone on one core, {} rounds in several orders",
-                options.rounds
-            ),
+            drawn: "the instances of the lists; each program alone on one core, in rounds of several orders"
+                .to_owned(),
             passes: Some(options.passes),
             ..Provenance::default()
         },
@@ -84,6 +83,7 @@ fn row(task: &Task, runner: &Runner, figures: &[Figures]) -> Row {
         .key("beside", beside)
         .key("version", version)
         .with("instances", task.problem.len() as f64)
+        .with("rounds", figures.len() as f64)
         .with("differ", middle(&|figures| Some(f64::from(figures.differ))))
         .with("query", middle(&|figures| Some(figures.query)))
         .with("first", middle(&|figures| Some(figures.first)))
