@@ -342,4 +342,13 @@ mod tests {
         share_their_tables::<Centers>(&[CornerRule::Never, CornerRule::One, CornerRule::Always]);
         share_their_tables::<Corners>(&[DiagonalGap::Open, DiagonalGap::Closed]);
     }
+
+    #[test]
+    fn the_memory_of_a_graph_has_its_parts() {
+        for graph in graphs::<Corners>(DiagonalGap::Open, 5) {
+            let octants: usize = graph.octants.iter().map(Octant::memory_bytes).sum();
+            let tables = size_of_val(&*graph.steps) + octants;
+            assert!(octants > 0 && graph.memory_bytes() >= tables + graph.space.memory_bytes());
+        }
+    }
 }

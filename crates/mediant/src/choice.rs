@@ -19,7 +19,7 @@ pub struct Choice {
 }
 
 /// The most cells of a map that was measured: up to there subgoals pay on nearly every kind of map
-/// (`docs/performance.md`, 'How it grows'), and where they do not, another engine searches.
+/// (`docs/measurements/subgoal.md`, 'On large maps'), and where they do not, another engine searches.
 const MOST_CELLS_FOR_SUBGOALS: u64 = 1 << 24;
 
 /// The most cells of a map on which the next path is searched without the preparation of block-based JPS,

@@ -125,9 +125,9 @@
 //! [`Disc`] or a [`Square`], whose `change` is that of their spaces.
 //!
 //! An edit of one cell takes 3 to 10 µs in the median with all of that on 512 × 512 cells, 5 to 24 µs up to
-//! 4096 × 4096, at k ≤ 3 and any angle; with HPA* 21 to 73 µs, with JPS+ 8 to 47 (`docs/performance.md`). A
-//! path is [checked](Change::check) against a change, kept while it is a shortest one ([`Planner::replan`]),
-//! or [mended](Planner::mend) where it broke.
+//! 4096 × 4096, at k ≤ 3 and any angle; with HPA* 21 to 73 µs, with JPS+ 8 to 47
+//! (`docs/measurements/changing.md`). A path is [checked](Change::check) against a change, kept while it is a
+//! shortest one ([`Planner::replan`]), or [mended](Planner::mend) where it broke.
 //!
 //! # Costs of cells
 //!

@@ -84,5 +84,7 @@ mod tests {
             [Some(360.0), Some(45.0), Some(270.0)]
         );
         assert_eq!([of(Grass, 2, -1), of(Grass, -1, -2)], [Some(22.5), Some(112.5)]);
+        // GRASS has no longer moves: the angle of one is its own.
+        assert!(of(Grass, 3, -1).is_some_and(|degrees| (degrees - 18.435).abs() < 1e-3));
     }
 }

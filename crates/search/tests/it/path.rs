@@ -420,3 +420,13 @@ fn coordinates_of_all_sizes() {
         assert!(matches!(check_under(&grid, rules, &odd), Err(BrokenPath::Outside { index: 0, .. })));
     }
 }
+
+#[test]
+fn a_cost_of_its_own_stays_with_a_path() {
+    let path = Path::with_cost(vec![(0, 0).into(), (3, 4).into()], 20.0);
+    for moved in [path.at_centers(), path.at_corners(), path.at_corners().at_centers(), path.reversed()] {
+        assert_eq!((moved.cost(), moved.length()), (20.0, 5.0), "{moved}");
+    }
+    assert_ne!(path.at_centers(), path);
+    assert_eq!(path.at_corners().at_centers(), path);
+}

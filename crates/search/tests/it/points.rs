@@ -270,3 +270,19 @@ fn fields_from_points_are_kept_where_no_path_comes_near() {
     });
     assert!(kept > seeds(60).end, "{kept}");
 }
+
+/// A change far from a point in one direction alone is far from it.
+#[test]
+fn a_change_in_the_columns_or_rows_of_a_point_is_not_near() {
+    let grid = Arc::new(Grid::from_fn(30, 30, |_, _| false).unwrap());
+    let space = Arc::new(FreeSpace::<Corners>::new(Arc::clone(&grid), DiagonalGap::Open));
+    let sources = [Point::nearest(2.5, 2.5).unwrap()];
+    let query = FieldQuery::from_points(&sources).within(3.0);
+    let field = AnyAngleFields::new(Arc::clone(&space)).field(query).unwrap();
+    for (x, y, is_kept) in [(2, 25, true), (25, 2, true), (25, 25, true), (4, 4, false)] {
+        let change = Change::new(Arc::clone(&grid)).edit_cells([(x, y, true)]);
+        let after = Arc::new(space.after(&change));
+        let repaired = field.repaired(after, &change).unwrap();
+        assert_eq!(repaired.is_some(), is_kept, "({x}, {y})");
+    }
+}

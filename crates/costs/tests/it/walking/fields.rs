@@ -105,3 +105,24 @@ fn a_corridor_is_as_cheap_as_the_path_along_its_bottom() {
     });
     assert!(joined > 20, "only {joined}");
 }
+
+#[test]
+fn each_step_leads_nearer_to_the_source() {
+    let mut steps = 0;
+    for_random_grounds(20, |ground, graph, about| {
+        let Some(source) = ground.source(&mut Rng::new(7)) else { return };
+        for heading in HEADINGS {
+            let field = field(graph, heading, CostFieldQuery::new(&[source]));
+            for at in vertices(graph) {
+                let Some(next) = field.next(at) else {
+                    assert!(at == source || field.cost(at).is_none(), "{at}: {about}");
+                    continue;
+                };
+                assert!(field.cost(next) < field.cost(at), "{at} to {next}: {about}");
+                assert_eq!(field.direction(at), Some(at.to(next)), "{at} to {next}: {about}");
+                steps += 1;
+            }
+        }
+    });
+    assert!(steps > 1000, "only {steps}");
+}

@@ -8,6 +8,7 @@ use mediant_costs::{
 };
 use mediant_grid::{CornerRule, DiagonalGap, Interrupt, Rules, Vertex};
 use mediant_moves::FiniteK;
+use mediant_search::{End, QueryError};
 
 fn map(pace: &Pace, ground: impl Fn(u32, u32) -> Option<(f64, f64)>) -> Result<WalkingMap, WalkingError> {
     WalkingMap::with_friction((4, 3), (10.0, 10.0), pace, &Interrupt::NEVER, ground)
@@ -82,4 +83,31 @@ fn corners_and_blocked_ends_are_refused() {
     }
     assert!(matches!(field(Vertex::new(1, 0), -1.0), Err(WalkingError::Field(CostFieldError::Limit { .. }))));
     assert_eq!(field(Vertex::new(1, 0), 1.0), Ok(()));
+}
+
+#[test]
+fn ends_outside_the_map_are_told_the_last_vertex() {
+    let map = map(&Pace::Tobler, |x, y| ((x, y) != (1, 1)).then_some((0.0, 0.0))).expect("a map");
+    let rules = Rules::Center(CornerRule::Never);
+    let k = FiniteK::new(3).expect("k is at least 2");
+    let graph = WalkingGraph::new(Arc::new(map), rules, k).expect("a graph");
+    for at in [Vertex::new(4, 0), Vertex::new(0, 3), Vertex::new(-1, 0)] {
+        let told = graph.check(End::Goal, at);
+        let last = Vertex::new(3, 2);
+        assert_eq!(told, Err(QueryError::Outside { end: End::Goal, at: at.into(), last }));
+    }
+    let blocked = Vertex::new(1, 1);
+    assert_eq!(
+        graph.check(End::Start, blocked),
+        Err(QueryError::Blocked { end: End::Start, at: blocked.into() })
+    );
+    assert_eq!(graph.check(End::Start, Vertex::new(3, 2)), Ok(()));
+}
+
+#[test]
+fn the_times_of_a_map_lie_between_its_bounds() {
+    let steady = Pace::Table(vec![(-1.0, 2.0), (1.0, 2.0)]);
+    let flat = map(&steady, |x, _| Some((5.0, if x == 1 { 3.0 } else { 0.5 }))).expect("a map");
+    assert_eq!(flat.bounds(), (2.5, 5.0));
+    assert_eq!(map(&steady, |_, _| Some((5.0, 0.0))).expect("a map").bounds(), (2.0, 2.0));
 }
