@@ -75,8 +75,8 @@
 //! **Memory** follows the search, not the map: roots, nodes, and blocks of the root history (module
 //! `history`).
 //!
-//! On eighteen benchmark maps it takes 0.39 of the time of Polyanya in the geometric mean without dead ends
-//! (`docs/performance.md`), and about as long with nothing prepared (`docs/measurements/compared.md`). Times
+//! On eighteen benchmark maps it takes less than half the time of Polyanya in the geometric mean without dead
+//! ends (`docs/performance.md`), and about as long with nothing prepared (`docs/measurements/compared.md`). Times
 //! over N(k), and what was tried on the way, are in `docs/measurements/search.md`.
 
 mod cone;
