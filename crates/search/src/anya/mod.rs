@@ -76,8 +76,8 @@
 //! `history`).
 //!
 //! On eighteen benchmark maps it takes less than half the time of Polyanya in the geometric mean without dead
-//! ends (`docs/performance.md`), and about as long with nothing prepared (`docs/measurements/compared.md`). Times
-//! over N(k), and what was tried on the way, are in `docs/measurements/search.md`.
+//! ends (`docs/performance.md`), and about as long with nothing prepared (`docs/measurements/compared.md`).
+//! Times over N(k), and what was tried on the way, are in `docs/measurements/search.md`.
 
 mod cone;
 mod dead_ends;
