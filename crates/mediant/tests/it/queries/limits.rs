@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use mediant::{
-    Answer, Cost, Ends, Engine, Guarantee, K, Limit, Limits, Planner, Setup, Stopped, Vertex,
+    Answer, Cost, Ends, Engine, Guarantee, K, Limit, Limits, Map, Planner, Query, Setup, Stopped, Vertex,
     errors::QueryError,
     search::{NodeEvent, Observer},
 };
@@ -322,4 +322,24 @@ fn a_limit_is_a_number() {
             assert_eq!(answer.map(|answer| answer.cost()), Ok(Some(0.0)), "{text}, {cost}");
         }
     }
+}
+
+#[test]
+fn what_came_near_a_goal_too_dear_stays_the_best_while_another_is_searched() {
+    // The goal behind the wall is two cells from where the search turns back; the other one is far.
+    let rows = ["...#.", "...#.", "...#.", "...#.", ".....", "...#.", "...#.", "...#.", "...#."];
+    let map = Map::from_rows(rows).expect("a map");
+    let goals = [Vertex::new(4, 0), Vertex::new(0, 8)];
+    let mut planner = setup("astar:2:never").planner(&map).expect("a planner");
+    planner.begin(Query::between([(0, 0)], goals).within(Limits::new().cost(10.0))).expect("free ends");
+    let (mut distances, mut answer) = (Vec::new(), None);
+    while answer.is_none() {
+        answer = planner.step(1).expect("free ends");
+        let at = end(&planner.best().expect("a search was begun"));
+        distances.push(goals.iter().map(|goal| at.x.abs_diff(goal.x) + at.y.abs_diff(goal.y)).min());
+    }
+    assert!(distances.is_sorted_by(|before, after| before >= after), "{distances:?}");
+    let beside = distances.iter().filter(|&&distance| distance == Some(2)).count();
+    assert!(beside > 9, "while the first goal is searched, and while the second is: {distances:?}");
+    assert_eq!(answer.as_ref().and_then(Answer::cost), Some(8.0), "the goal that is not too dear");
 }
