@@ -80,9 +80,9 @@ export interface Options {
   readonly levels?: number | "all" | "contracted" | "labels";
   /**
    * The memory that the hub labels of subgoal may take, as 8MB: what they leave of it goes to labels of
-   * vertices, with which queries take down to a third of the time. By default they may take 64 bytes a cell,
-   * but at least 48MB and at most 1GB, and vertices have none. A map whose labels take more has a
-   * contraction hierarchy, and the same paths.
+   * vertices, with which queries are faster on most maps. By default they may take 64 bytes a cell, but at
+   * least 48MB and at most 1GB, and vertices have none. A map whose labels take more has a contraction
+   * hierarchy, and the same paths.
    */
   readonly memory?: number | string;
   /**

@@ -45,7 +45,7 @@ pub struct SubgoalOptions {
     /// The levels of the graph, a contraction hierarchy, or hub labels; by default the map decides.
     pub levels: Option<Levels>,
     /// The memory that hub labels may take, which is used: what they leave of it goes to labels of vertices,
-    /// with which queries take down to a third of the time. By default vertices have none, and hub labels may
+    /// with which queries are faster on most maps. By default vertices have none, and hub labels may
     /// take that of [`Memory::for_labels_of`] if no levels are named, and as much as they need if
     /// [`Levels::Labels`] are named.
     pub memory: Option<Memory>,

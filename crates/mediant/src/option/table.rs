@@ -47,9 +47,9 @@ pub(crate) static MEMORY: EngineOption = EngineOption {
     is_index_option: true,
     is_published: false,
     help: "The memory that the hub labels of subgoal may take, as 8MB: what they leave of it goes to labels \
-           of vertices, with which queries take down to a third of the time. By default they may take 64 \
-           bytes a cell, but at least 48MB and at most 1GB, and vertices have none. A map whose labels take \
-           more has a contraction hierarchy, and the same paths",
+           of vertices, with which queries are faster on most maps. By default they may take 64 bytes a cell, but \
+           at least 48MB and at most 1GB, and vertices have none. A map whose labels take more has a \
+           contraction hierarchy, and the same paths",
     phrase: "at most {} for labels",
     samples: &["1kB", "1MB"],
 };

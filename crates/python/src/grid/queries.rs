@@ -284,8 +284,8 @@ impl Grid {
     ///     else a contraction hierarchy; `Index.levels` says which.
     /// memory : int or str, optional
     ///     The memory that the hub labels of ``subgoal`` may take: a number of bytes, or a text as ``"8MB"``.
-    ///     The rest of it goes to labels of vertices, with which queries take down to a third of the
-    ///     time. By default they may take 64 bytes a cell, but at least 48 MB and at most 1 GB, and vertices
+    ///     The rest of it goes to labels of vertices, with which queries are faster on most
+    ///     maps. By default they may take 64 bytes a cell, but at least 48 MB and at most 1 GB, and vertices
     ///     have none.
     /// side : int, optional
     ///     The side of a cluster or segment, in cells.
