@@ -33,6 +33,7 @@ use std::{
 };
 
 use clap::Args;
+use mediant::{FiniteK, K};
 use mediant_sets::{Error as SetError, Manifest, cache, files, root};
 
 use self::{
@@ -64,7 +65,7 @@ pub struct Options {
     /// Of each set, only every Nth map, the first among them; nothing is kept then
     #[arg(long, value_name = "N", default_value = "1")]
     every_map: NonZeroUsize,
-    /// Ask the slow engines every Nth instance; 1 asks them all
+    /// Ask the slow engines every Nth instance, from k = 6 on every 10Nth; 1 asks them all
     #[arg(long, value_name = "N", default_value = "10")]
     slow: NonZeroUsize,
     /// Begin no further map after so many minutes
@@ -86,6 +87,22 @@ pub struct Options {
 struct Pace {
     /// Every so-manieth instance.
     slow: usize,
+    /// The same from k = 6 on, where a search of all moves takes seconds.
+    at_large_k: usize,
+}
+
+impl Pace {
+    /// Of every so-manieth instance, and of all if that is each.
+    const fn every(slow: usize) -> Self {
+        Self { slow, at_large_k: if slow == 1 { 1 } else { 10 * slow } }
+    }
+
+    /// That of a sample, which has few instances.
+    const SAMPLE: Self = Self { slow: 4, at_large_k: 4 };
+
+    fn at(self, k: K) -> usize {
+        if k.finite().is_some_and(|k| k > FiniteK::N32) { self.at_large_k } else { self.slow }
+    }
 }
 
 /// A failure of `prove`.
@@ -163,7 +180,7 @@ pub fn run_in(
     out: &mut (dyn io::Write + Send),
 ) -> Result<(), ProveError> {
     let until = options.minutes.map(|minutes| Instant::now() + Duration::from_secs(60 * minutes));
-    let pace = Pace { slow: if options.sample { 4 } else { options.slow.get() } };
+    let pace = if options.sample { Pace::SAMPLE } else { Pace::every(options.slow.get()) };
     let sources = Sources::read(&places.root, pace)?;
     let is_whole = options.every.get() == 1 && options.every_map.get() == 1 && !options.sample;
     if options.record && !is_whole {
@@ -359,7 +376,7 @@ mod tests {
     /// Of one set 5 maps, 2 of them by the record; of another one 3, of which other sources proved 2.
     #[test]
     fn what_was_never_proven_comes_first() {
-        let sources = Sources::read(&root(), Pace { slow: 10 }).expect("the sources are here");
+        let sources = Sources::read(&root(), Pace::every(10)).expect("the sources are here");
         let kept = Kept { folder: None, sources };
         let suite = Suite::all()[0];
         let share = |set: &str, maps: usize, proven: usize| {

@@ -215,7 +215,7 @@ pub(super) fn prove(
         let mut known: Option<(&str, Answers)> = None;
         for contestant in contestants {
             // With the first all others are compared.
-            let step = if contestant.is_slow && known.is_some() { pace.slow } else { 1 };
+            let step = if contestant.is_slow && known.is_some() { pace.at(motion.k) } else { 1 };
             let Some((answers, digest)) = contestant.answers(&space, &terrain.instances, step)? else {
                 continue;
             };

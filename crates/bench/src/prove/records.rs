@@ -199,13 +199,14 @@ fn place(row: &Row, key: &str) -> (usize, String, String) {
 }
 
 fn provenance(root: &Path, pace: Pace, instances: u64, record: &Record, is_of_laws: bool) -> Provenance {
-    let slow = pace.slow;
+    let Pace { slow, at_large_k } = pace;
     let drawn = match is_of_laws {
         true => "every 1st, 2nd, 20th or 100th instance of a map, by the law; most laws ask each under one \
                  motion, in turn"
             .to_owned(),
         false => format!(
-            "all instances of the first maps of each set; slow engines are asked every {slow}th instance"
+            "all instances of the first maps of each set; slow engines are asked every {slow}th instance, \
+             from k = 6 on every {at_large_k}th"
         ),
     };
     Provenance {

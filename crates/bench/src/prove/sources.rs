@@ -40,6 +40,7 @@ impl Sources {
         add_all(root, &OF_FAMILIES, &mut digest)?;
         let mut of_laws = digest.clone();
         digest.update(pace.slow.to_le_bytes());
+        digest.update(pace.at_large_k.to_le_bytes());
         add_all(root, &OF_LAWS, &mut of_laws)?;
         Ok(Self { families: text(digest), laws: text(of_laws) })
     }
