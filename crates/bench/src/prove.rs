@@ -65,7 +65,7 @@ pub struct Options {
     /// Of each set, only every Nth map, the first among them; nothing is kept then
     #[arg(long, value_name = "N", default_value = "1")]
     every_map: NonZeroUsize,
-    /// Ask the slow engines every Nth instance, from k = 6 on every 10Nth; 1 asks them all
+    /// Ask the slow engines every Nth instance, and from k = 6 on a tenth of these; 1 asks them all
     #[arg(long, value_name = "N", default_value = "10")]
     slow: NonZeroUsize,
     /// Begin no further map after so many minutes
@@ -85,19 +85,19 @@ pub struct Options {
 /// The share of the instances that slow engines are asked.
 #[derive(Clone, Copy, Debug)]
 struct Pace {
-    /// Every so-manieth instance.
+    /// Up to k = 5 and at any angle they are asked every so-manieth instance.
     slow: usize,
-    /// The same from k = 6 on, where a search of all moves takes seconds.
+    /// From k = 6 on, where a search of all moves takes seconds.
     at_large_k: usize,
 }
 
 impl Pace {
-    /// Of every so-manieth instance, and of all if that is each.
+    /// Every so-manieth instance, and from k = 6 on a tenth of these; all if `slow` is 1.
     const fn every(slow: usize) -> Self {
         Self { slow, at_large_k: if slow == 1 { 1 } else { 10 * slow } }
     }
 
-    /// That of a sample, which has few instances.
+    /// A sample has few instances.
     const SAMPLE: Self = Self { slow: 4, at_large_k: 4 };
 
     fn at(self, k: K) -> usize {
@@ -372,6 +372,15 @@ fn sampled(mut maps: Vec<PathBuf>, number: usize) -> Vec<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slow_engines_are_asked_less_from_k_6_on() {
+        let finite = |k| K::Finite(FiniteK::new(k).expect("k is at least 2"));
+        let of = |pace: Pace| [finite(3), finite(5), finite(6), finite(8), K::Any].map(|k| pace.at(k));
+        assert_eq!(of(Pace::every(10)), [10, 10, 100, 100, 10]);
+        assert_eq!(of(Pace::every(1)), [1; 5], "all instances");
+        assert_eq!(of(Pace::SAMPLE), [4; 5]);
+    }
 
     /// Of one set 5 maps, 2 of them by the record; of another one 3, of which other sources proved 2.
     #[test]

@@ -179,6 +179,10 @@ pub(super) fn write(
             old.iter().filter_map(|row| row.number("problems").or(row.number(CASES))).sum::<f64>() as u64;
         rows.extend(old);
         rows.sort_by_key(|row| place(row, key));
+        // The revision is that at which a row was last proven.
+        if rows == page.record.rows {
+            continue;
+        }
         page.record.rows = rows;
         page.record.provenance = provenance(root, pace, problems, &page.record, is_of_laws);
         page.record.title = match is_of_laws {
